@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The commands of the README; the build itself is CMake's.
+BUILD ?= build
+PREFIX ?= /usr/local
+CMAKE_OPTIONS ?=
+DEMO_OUTPUT ?= results/demo
+DEMO_OPTIONS ?=
+
+.PHONY: all deps configure build demo test bench install uninstall format format-check clean
+
+all: build
+
+deps:
+	@tools/install-dependencies.sh
+
+configure: deps
+	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_INSTALL_PREFIX=$(PREFIX) $(CMAKE_OPTIONS) > $(BUILD).log 2>&1 \
+	  && rm -f $(BUILD).log || { cat $(BUILD).log; rm -f $(BUILD).log; exit 1; }
+
+build: configure
+	cmake --build $(BUILD)
+
+# The whole chain on real input, in a few minutes: the 57 mm replica dropped on coarse sand.
+demo: configure
+	cmake --build $(BUILD) --target grainfall_core grainfall_package
+	PYTHONPATH=$(abspath $(BUILD))/python yade -j2 -n -x scenarios/drop_test.py \
+	  --preset m70-full --quick --output $(DEMO_OUTPUT) $(DEMO_OPTIONS)
+
+test: build
+	ctest --test-dir $(BUILD) --output-on-failure
+
+bench: build
+	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/law_cost.py
+	/usr/bin/python3 benchmarks/instruction_count.py $(BUILD)
+
+install: build
+	cmake --install $(BUILD)
+
+uninstall:
+	@test -f $(BUILD)/install_manifest.txt || { echo "nothing was installed from $(BUILD)"; exit 1; }
+	sed 's|^|$(DESTDIR)|' $(BUILD)/install_manifest.txt | xargs -d '\n' rm -f
+	sed 's|^|$(DESTDIR)|' $(BUILD)/install_manifest.txt | xargs -d '\n' -n1 dirname | sort -ru \
+	  | grep '/grainfall' | while read -r folder; do rm -rf "$$folder/__pycache__"; rmdir -p --ignore-fail-on-non-empty "$$folder" 2>/dev/null || true; done
+
+CXX_SOURCES = $(shell git ls-files '*.cpp' '*.hpp')
+format: deps
+	clang-format -i $(CXX_SOURCES)
+	black -q .
+
+format-check: deps
+	clang-format --dry-run --Werror $(CXX_SOURCES)
+	black --check -q .
+	flake8
+
+clean:
+	rm -rf $(BUILD)

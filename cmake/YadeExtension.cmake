@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The extension module grainfall._core and the importable package in <build>/python.
+#
+# The compile flags are part of YADE's binary interface: with Eigen's alignment left on, State has
+# another size than in the installed library.
+
+# The system's Python, not whichever python3 stands first on PATH: YADE runs in this one.
+set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that YADE runs in")
+find_package(Python3 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(Boost 1.74 REQUIRED COMPONENTS python${Python3_VERSION_MAJOR}${Python3_VERSION_MINOR} serialization)
+
+add_library(yade_interface INTERFACE)
+target_include_directories(yade_interface INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_definitions(yade_interface INTERFACE
+    EIGEN_DONT_ALIGN EIGEN_DONT_VECTORIZE EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT)
+target_compile_options(yade_interface INTERFACE -frounding-math)
+if(YADE_SOURCE_DIR)
+    if(NOT EXISTS "${YADE_SOURCE_DIR}/core/Scene.hpp")
+        message(FATAL_ERROR "YADE_SOURCE_DIR = ${YADE_SOURCE_DIR}: no core/Scene.hpp in it; "
+                            "give the root of a YADE source tree or leave the option empty.")
+    endif()
+    find_package(MPI COMPONENTS CXX)
+    target_include_directories(yade_interface SYSTEM INTERFACE "${YADE_SOURCE_DIR}" ${MPI_CXX_INCLUDE_DIRS})
+    # The options that Debian's build of YADE was compiled with; they decide the layout of its classes.
+    target_compile_definitions(yade_interface INTERFACE
+        YADE_REAL_BIT=64 YADE_REAL_DEC=15 YADE_OPENMP YADE_MPI YADE_OPENGL YADE_FEM PARTIALSAT
+        YADE_BOOST_LOG BOOST_LOG_DYN_LINK YADE_PTR_CAST=static_pointer_cast YADE_CAST=static_cast
+        YADE_VTK YADE_GTS YADE_CGAL YADE_LS_DEM)
+else()
+    target_include_directories(yade_interface SYSTEM INTERFACE "${PROJECT_SOURCE_DIR}/yade-headers")
+endif()
+target_link_libraries(yade_interface INTERFACE
+    Eigen3::Eigen Python3::Module OpenMP::OpenMP_CXX Boost::python311 Boost::serialization
+    "${YADE_LIBRARY_DIR}/libyade.so" "${YADE_LIBRARY_DIR}/libpkg_common.so" "${YADE_LIBRARY_DIR}/libpkg_dem.so")
+
+file(GLOB extension_sources CONFIGURE_DEPENDS
+    "${PROJECT_SOURCE_DIR}/laws/yade/*.cpp"
+    "${PROJECT_SOURCE_DIR}/engines/*/yade/*.cpp"
+    "${PROJECT_SOURCE_DIR}/python/module/*.cpp")
+add_library(grainfall_core MODULE ${extension_sources})
+target_link_libraries(grainfall_core PRIVATE yade_interface grainfall_warnings)
+set(package_dir "${PROJECT_BINARY_DIR}/python/grainfall")
+set_target_properties(grainfall_core PROPERTIES
+    PREFIX "" OUTPUT_NAME "_core" SUFFIX ".so"
+    LIBRARY_OUTPUT_DIRECTORY "${package_dir}"
+    BUILD_RPATH "${YADE_LIBRARY_DIR}" INSTALL_RPATH "${YADE_LIBRARY_DIR}")
+
+file(GLOB_RECURSE package_sources CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/python"
+     "${PROJECT_SOURCE_DIR}/python/grainfall/*.py")
+foreach(source IN LISTS package_sources)
+    add_custom_command(OUTPUT "${PROJECT_BINARY_DIR}/python/${source}"
+        COMMAND "${CMAKE_COMMAND}" -E copy "${PROJECT_SOURCE_DIR}/python/${source}"
+                "${PROJECT_BINARY_DIR}/python/${source}"
+        DEPENDS "${PROJECT_SOURCE_DIR}/python/${source}")
+    list(APPEND package_copies "${PROJECT_BINARY_DIR}/python/${source}")
+endforeach()
+add_custom_target(grainfall_package ALL DEPENDS ${package_copies})
+
+# Where /usr/bin/python3 looks without being told: dist-packages under /usr/local, python3/dist-packages under /usr.
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(default_python_dir "lib/python3/dist-packages")
+else()
+    set(default_python_dir "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages")
+endif()
+set(GRAINFALL_PYTHON_DIR "${default_python_dir}" CACHE PATH "folder for the Python package, under the prefix")
+install(DIRECTORY "${PROJECT_BINARY_DIR}/python/grainfall" DESTINATION "${GRAINFALL_PYTHON_DIR}"
+        FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+install(TARGETS grainfall_core LIBRARY DESTINATION "${GRAINFALL_PYTHON_DIR}/grainfall")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenarios" DESTINATION share/grainfall FILES_MATCHING PATTERN "*.py")
+install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION share/doc/grainfall)

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <laws/yade/GrainMat.hpp>
+
+#include <laws/pair_rules.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((GrainMat));
+
+void GrainMat::validate() const {
+    namespace gl = grainfall::laws;
+    gl::validate(gl::ElasticMaterial { young, poisson }, "GrainMat");
+    gl::require_positive("GrainMat.density", density);
+    if (!(frictionAngle >= 0 && frictionAngle < M_PI / 2))
+        gl::reject("GrainMat.frictionAngle", frictionAngle, "in [0, pi/2) (radians)");
+    gl::require_between("GrainMat.restitution", restitution, gl::smallest_restitution, 1);
+    gl::require_between("GrainMat.gravimetricMoisture", gravimetricMoisture, 0, 1);
+    gl::require_not_negative("GrainMat.referenceRadius", referenceRadius);
+    if (friction) friction->validate();
+}
+
+shared_ptr<FrictionCurve> GrainMat::friction_curve() const {
+    return friction ? friction : make_constant_friction(std::tan(frictionAngle));
+}
+
+void GrainMat::pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& keywords) {
+    if (keywords.has_key("friction"))
+        keywords["friction"] = to_friction_curve(keywords["friction"], "GrainMat.friction");
+}
+
+} // namespace yade

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <laws/yade/GrainPhys.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((GrainPhys));
+
+void GrainPhys::resolve_friction() {
+    resolved_ = friction ? friction->resolve(moisture, loadScale) : ResolvedFriction();
+}
+
+FrictionForm GrainPhys::simplified_friction() {
+    namespace friction_kernels = grainfall::laws::friction;
+    FrictionForm form = form_of(*resolved_);
+    const auto* pair = std::get_if<friction_kernels::Any::Pair>(&resolved_->curve());
+    // Two constants combine to a constant.
+    if (pair && form_of(*pair->first.curve) == FrictionForm::constant &&
+        form_of(*pair->second.curve) == FrictionForm::constant)
+        form = FrictionForm::constant;
+    if (form == FrictionForm::constant) {
+        tangensOfFrictionAngle = resolved_->coefficient(1);
+        friction.reset();
+        resolved_.reset();
+    }
+    return form;
+}
+
+} // namespace yade

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
+
+#include <laws/yade/contact_kernels.hpp>
+#include <laws/yade/effects.hpp>
+
+#include <core/EnergyTracker.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Omega.hpp>
+
+namespace yade {
+
+YADE_PLUGIN((Law2_ScGeom_GrainPhys_HertzMindlin));
+CREATE_LOGGER(Law2_ScGeom_GrainPhys_HertzMindlin);
+
+bool Law2_ScGeom_GrainPhys_HertzMindlin::go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
+                                            Interaction* interaction) {
+    auto& phys = static_cast<GrainPhys&>(*physics);
+    const Kernel kernel = (*kernels_[scene->trackEnergy])[phys.contactClass];
+    return kernel(*this, static_cast<ScGeom&>(*geometry), phys, *interaction);
+}
+
+void Law2_ScGeom_GrainPhys_HertzMindlin::validate() const {
+    using grainfall::laws::reject;
+    if (normalLaw != "hertz" && normalLaw != "report")
+        reject("Law2_ScGeom_GrainPhys_HertzMindlin.normalLaw", "'" + normalLaw + "'", "'hertz' or 'report'");
+    if (tangentialLaw != "incremental" && tangentialLaw != "report" && tangentialLaw != "secant" &&
+        tangentialLaw != "none")
+        reject("Law2_ScGeom_GrainPhys_HertzMindlin.tangentialLaw", "'" + tangentialLaw + "'",
+               "'incremental', 'report', 'secant' or 'none'");
+}
+
+void Law2_ScGeom_GrainPhys_HertzMindlin::postLoad(Law2_ScGeom_GrainPhys_HertzMindlin&) {
+    validate();
+    choose_kernels();
+}
+
+void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
+    const KernelTables& tables = tangentialLaw == "report"   ? report_kernels()
+                                 : tangentialLaw == "secant" ? secant_kernels()
+                                 : tangentialLaw == "none"   ? frictionless_kernels()
+                                                             : incremental_kernels();
+    const KernelTables::Pair& pair = normalLaw == "report" ? tables.report : tables.hertz;
+    kernels_ = { &pair.plain, &pair.booking };
+}
+
+void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real rescaling) {
+    EnergyTracker& energy = *scene->energy;
+    if (!energy_named_.load(std::memory_order_acquire)) {
+        // All names first and by one thread: adding a name may move the accumulators under another thread's feet.
+        const std::lock_guard<std::mutex> lock(energy_mutex_);
+        energy.findId("grainFriction", frictionIx, false, true);
+        energy.findId("grainViscous", viscousIx, false, true);
+        energy.findId("grainRescaling", rescalingIx, false, true);
+        energy_named_.store(true, std::memory_order_release);
+    }
+    if (friction != 0) energy.add(friction, "grainFriction", frictionIx, false);
+    if (viscous != 0) energy.add(viscous, "grainViscous", viscousIx, false);
+    if (rescaling != 0) energy.add(rescaling, "grainRescaling", rescalingIx, false);
+}
+
+boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy() const {
+    const bool report = normalLaw == "report";
+    Real normal = 0;
+    Real shear = 0;
+    for (const auto& interaction : *Omega::instance().getScene()->interactions) {
+        if (!interaction->isReal()) continue;
+        const auto* phys = dynamic_cast<const GrainPhys*>(interaction->phys.get());
+        const auto* geom = dynamic_cast<const ScGeom*>(interaction->geom.get());
+        if (!phys || !geom) continue;
+        // The overlap at which the forces of the last step acted: ScGeom may have moved on.
+        const Real overlap = std::max(Real(0), geom->penetrationDepth);
+        normal += (report ? grainfall::laws::ReportNormal::factor : 1.0) * 0.4 * phys->normalCoefficient * overlap *
+                  overlap * std::sqrt(overlap);
+        shear += grainfall::laws::shear_elastic_energy(phys->shearElastic, phys->ks);
+    }
+    boost::python::dict energies;
+    energies["normal"] = normal;
+    energies["shear"] = shear;
+    return energies;
+}
+
+boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::effects() const {
+    return describe_effects(*this, *Omega::instance().getScene());
+}
+
+} // namespace yade

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From YADE's contact objects to the kernels of laws/hertz_mindlin.hpp and back: translation only.
+#pragma once
+
+#include <laws/hertz_mindlin.hpp>
+#include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
+
+#include <core/Body.hpp>
+#include <core/Cell.hpp>
+#include <core/Interaction.hpp>
+#include <core/State.hpp>
+
+namespace yade {
+
+using Law = Law2_ScGeom_GrainPhys_HertzMindlin;
+
+/// The kernels of one tangential law, for each normal law plain and with energy booking. Each tangential law is a
+/// translation unit of its own (contact_kernels_*.cpp), to keep compilation short.
+struct KernelTables {
+    struct Pair {
+        Law::KernelTable plain;
+        Law::KernelTable booking;
+    };
+    Pair hertz;
+    Pair report;
+};
+const KernelTables& incremental_kernels();
+const KernelTables& secant_kernels();
+const KernelTables& report_kernels();
+const KernelTables& frictionless_kernels();
+
+namespace kernels {
+
+namespace gl = grainfall::laws;
+
+/// The dashpots' forces of the last step, which the energy book needs and which follow from what the contact
+/// keeps anyway: the force applied less its elastic part.
+template <class Normal>
+void recall_viscous_forces(const GrainPhys& phys, const Vector3r& normal, gl::DissipationBook& book) {
+    const Real root_overlap = phys.kn / Normal::stiffness(phys.normalCoefficient, 1.0);
+    const Real elastic = Normal::force(phys.normalCoefficient, root_overlap * root_overlap, root_overlap);
+    book.normal_viscous_force = phys.normalForce.dot(normal) - elastic;
+    book.shear_viscous_force = phys.shearForce - phys.shearElastic;
+}
+
+inline void apply_force(Law& law, const Vector3r& force_on_2, const ScGeom& geom, const Interaction& contact,
+                        const State& state1, const State& state2, const Vector3r& shift2) {
+    ForceContainer& forces = law.scene->forces;
+    const Body::id_t id1 = contact.getId1();
+    const Body::id_t id2 = contact.getId2();
+    forces.addForce(id1, -force_on_2);
+    forces.addForce(id2, force_on_2);
+    forces.addTorque(id1, -(geom.contactPoint - state1.pos).cross(force_on_2));
+    forces.addTorque(id2, (geom.contactPoint - state2.pos - shift2).cross(force_on_2));
+}
+
+/// Constant friction is a number that every YADE law keeps in the same place; the other curves are held by the contact.
+template <class Friction>
+decltype(auto) friction_of(const GrainPhys& phys) {
+    if constexpr (std::is_same_v<Friction, gl::friction::Constant>)
+        return gl::friction::Constant { phys.tangensOfFrictionAngle };
+    else if constexpr (std::is_same_v<Friction, gl::friction::Any>)
+        return (phys.curve());
+    else
+        return (*std::get_if<Friction>(&phys.curve().curve()));
+}
+
+template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
+    const Scene& scene = *law.scene;
+    if (geom.penetrationDepth < 0) {
+        if constexpr (Energy::active && Tangential::active) {
+            law.book(0, 0, gl::shear_elastic_energy(phys.shearElastic, phys.ks));
+        }
+        return false;
+    }
+    const State& state1 = *Body::byId(contact.getId1(), law.scene)->state;
+    const State& state2 = *Body::byId(contact.getId2(), law.scene)->state;
+    Vector3r shift2 = Vector3r::Zero();
+    if (scene.isPeriodic) shift2 = scene.cell->intrShiftPos(contact.cellDist);
+
+    gl::ContactGeometry geometry;
+    geometry.overlap = geom.penetrationDepth;
+    geometry.normal = geom.normal;
+    geometry.shear_increment = geom.shearIncrement();
+    geometry.time_step = scene.dt;
+    if constexpr (Damping::active || Energy::active) {
+        Vector3r shift_velocity = Vector3r::Zero();
+        if (scene.isPeriodic) shift_velocity = scene.cell->intrShiftVel(contact.cellDist);
+        geometry.normal_velocity =
+            geom.getIncidentVel(&state1, &state2, scene.dt, shift2, shift_velocity, false).dot(geom.normal);
+    }
+
+    const gl::ContactParameters parameters { phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
+                                             phys.shearDamping };
+    gl::ContactMemory memory { phys.shearElastic, phys.ks };
+    if constexpr (Tangential::active) geom.rotate(memory.shear_force);
+
+    Energy book;
+    if constexpr (Energy::active) recall_viscous_forces<Normal>(phys, geom.normal, book);
+    const gl::ContactForce force =
+        gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>::step(
+            geometry, parameters, friction_of<Friction>(phys), memory, book);
+    if constexpr (Energy::active) law.book(book.friction, book.viscous, book.rescaling);
+
+    phys.kn = force.normal_stiffness;
+    phys.ks = force.shear_stiffness;
+    phys.normalForce = force.normal * geom.normal;
+    if constexpr (Tangential::active) {
+        phys.shearForce = force.shear;
+        phys.shearElastic = memory.shear_force;
+        phys.isSliding = force.sliding;
+    }
+    apply_force(law, phys.normalForce + phys.shearForce, geom, contact, state1, state2, shift2);
+    return true;
+}
+
+template <class Normal, class Tangential, class Energy>
+struct TableMaker {
+    template <class Damping>
+    static void fill(Law::KernelTable& table, DashpotForm dashpot) {
+        put<Damping, gl::friction::Constant>(table, FrictionForm::constant, dashpot);
+        put<Damping, gl::friction::PowerLaw>(table, FrictionForm::power_law, dashpot);
+        put<Damping, gl::friction::Exponential>(table, FrictionForm::exponential, dashpot);
+        put<Damping, gl::friction::Asperity>(table, FrictionForm::asperity, dashpot);
+        put<Damping, gl::friction::Table>(table, FrictionForm::table, dashpot);
+        put<Damping, gl::friction::Any>(table, FrictionForm::combined, dashpot);
+    }
+    template <class Damping, class Friction>
+    static void put(Law::KernelTable& table, FrictionForm friction, DashpotForm dashpot) {
+        // Without a tangential force the curve is never read: one kernel serves all.
+        using Read = std::conditional_t<Tangential::active, Friction, gl::friction::Constant>;
+        table[ContactClass(friction, dashpot).index] = &step<Normal, Tangential, Damping, Read, Energy>;
+    }
+    static Law::KernelTable table() {
+        Law::KernelTable result {};
+        fill<gl::NoDamping>(result, DashpotForm::none);
+        fill<gl::RepulsiveDashpot>(result, DashpotForm::repulsive);
+        fill<gl::AttractiveDashpot>(result, DashpotForm::attractive);
+        return result;
+    }
+};
+
+template <class Normal, class Tangential>
+KernelTables::Pair both() {
+    return { TableMaker<Normal, Tangential, gl::NoEnergy>::table(),
+             TableMaker<Normal, Tangential, gl::DissipationBook>::table() };
+}
+
+template <class Tangential>
+const KernelTables& make_tables() {
+    static const KernelTables tables { both<gl::Hertz, Tangential>(), both<gl::ReportNormal, Tangential>() };
+    return tables;
+}
+
+} // namespace kernels
+} // namespace yade

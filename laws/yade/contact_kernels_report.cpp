@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <laws/yade/contact_kernels.hpp>
+
+namespace yade {
+
+const KernelTables& report_kernels() { return kernels::make_tables<grainfall::laws::ReportTangential>(); }
+
+} // namespace yade

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <laws/yade/effects.hpp>
+
+#include <laws/yade/GrainMat.hpp>
+#include <laws/yade/ContactClass.hpp>
+#include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
+
+#include <core/Scene.hpp>
+
+#include <sstream>
+
+namespace yade {
+
+namespace {
+
+std::string number(Real value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+const char* name_of(FrictionForm form) {
+    switch (form) {
+    case FrictionForm::constant:
+        return "friction: constant";
+    case FrictionForm::power_law:
+        return "friction: power law of the load";
+    case FrictionForm::exponential:
+        return "friction: exponential in the load";
+    case FrictionForm::asperity:
+        return "friction: asperity";
+    case FrictionForm::table:
+        return "friction: table of load and moisture";
+    case FrictionForm::combined:
+        return "friction: combined curves";
+    }
+    return "friction";
+}
+
+/// Collects effects; several materials that ask for one effect share its line.
+class EffectList {
+public:
+    void add(const std::string& effect, const std::string& reason) {
+        if (!effects_.has_key(effect))
+            effects_[effect] = reason;
+        else
+            effects_[effect] += "; " + reason;
+    }
+    boost::python::dict result() const { return effects_; }
+
+private:
+    boost::python::dict effects_;
+};
+
+void add_material(EffectList& list, const GrainMat& material, const std::string& name, bool frictional) {
+    const auto curve = material.friction_curve();
+    if (material.restitution < 1) list.add("viscous damping", name + ": restitution " + number(material.restitution));
+    if (!frictional) return;
+    list.add(name_of(form_of(curve->at_moisture(material.gravimetricMoisture))), name);
+    if (material.gravimetricMoisture > 0 && curve->depends_on_moisture())
+        list.add("moisture in friction", name + ": gravimetricMoisture " + number(material.gravimetricMoisture));
+    if (material.referenceRadius > 0 && curve->depends_on_load())
+        list.add("load scaling", name + ": referenceRadius " + number(material.referenceRadius) + " m");
+}
+
+} // namespace
+
+boost::python::dict describe_effects(const Law2_ScGeom_GrainPhys_HertzMindlin& law, const Scene& scene) {
+    EffectList list;
+    list.add("normal force: " + law.normalLaw, "normalLaw");
+    const bool frictional = law.tangentialLaw != "none";
+    if (frictional) list.add("tangential force: " + law.tangentialLaw, "tangentialLaw");
+    for (const auto& material : scene.materials) {
+        const auto* grain = dynamic_cast<const GrainMat*>(material.get());
+        if (!grain) continue;
+        const std::string name = grain->label.empty() ? "material " + std::to_string(grain->id) : grain->label;
+        add_material(list, *grain, name, frictional);
+    }
+    if (scene.trackEnergy) list.add("energy booking", "O.trackEnergy");
+    return list.result();
+}
+
+} // namespace yade
