@@ -13,7 +13,8 @@ find_package(Boost 1.74 REQUIRED COMPONENTS python${Python3_VERSION_MAJOR}${Pyth
 add_library(yade_interface INTERFACE)
 target_include_directories(yade_interface INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_definitions(yade_interface INTERFACE
-    EIGEN_DONT_ALIGN EIGEN_DONT_VECTORIZE EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT)
+    EIGEN_DONT_ALIGN EIGEN_DONT_VECTORIZE EIGEN_DISABLE_UNALIGNED_ARRAY_ASSERT
+    BOOST_BIND_GLOBAL_PLACEHOLDERS BOOST_ALLOW_DEPRECATED_HEADERS)
 target_compile_options(yade_interface INTERFACE -frounding-math)
 if(YADE_SOURCE_DIR)
     if(NOT EXISTS "${YADE_SOURCE_DIR}/core/Scene.hpp")
@@ -25,8 +26,7 @@ if(YADE_SOURCE_DIR)
     # The options that Debian's build of YADE was compiled with; they decide the layout of its classes.
     target_compile_definitions(yade_interface INTERFACE
         YADE_REAL_BIT=64 YADE_REAL_DEC=15 YADE_OPENMP YADE_MPI YADE_OPENGL YADE_FEM PARTIALSAT
-        YADE_BOOST_LOG BOOST_LOG_DYN_LINK YADE_PTR_CAST=static_pointer_cast YADE_CAST=static_cast
-        YADE_VTK YADE_GTS YADE_CGAL YADE_LS_DEM)
+        YADE_BOOST_LOG BOOST_LOG_DYN_LINK MAX_LOG_LEVEL=5)
 else()
     target_include_directories(yade_interface SYSTEM INTERFACE "${PROJECT_SOURCE_DIR}/yade-headers")
 endif()
@@ -40,6 +40,8 @@ file(GLOB extension_sources CONFIGURE_DEPENDS
     "${PROJECT_SOURCE_DIR}/python/module/*.cpp")
 add_library(grainfall_core MODULE ${extension_sources})
 target_link_libraries(grainfall_core PRIVATE yade_interface grainfall_warnings)
+# Boost.Python and Eigen are most of a translation unit's compile time.
+target_precompile_headers(grainfall_core PRIVATE <lib/serialization/Serializable.hpp>)
 set(package_dir "${PROJECT_BINARY_DIR}/python/grainfall")
 set_target_properties(grainfall_core PROPERTIES
     PREFIX "" OUTPUT_NAME "_core" SUFFIX ".so"

@@ -28,10 +28,14 @@ inline double combine(CombinationRule rule, double first, double second) {
 
 // `attribute` is what the complaint calls it, such as "frictionRule".
 inline CombinationRule combination_rule_from_name(const std::string& attribute, const std::string& name) {
-    if (name == "min") return CombinationRule::minimum;
-    if (name == "max") return CombinationRule::maximum;
-    if (name == "mean") return CombinationRule::mean;
-    if (name == "geometric") return CombinationRule::geometric;
+    if (name == "min")
+        return CombinationRule::minimum;
+    if (name == "max")
+        return CombinationRule::maximum;
+    if (name == "mean")
+        return CombinationRule::mean;
+    if (name == "geometric")
+        return CombinationRule::geometric;
     reject(attribute, "'" + name + "'", "'min', 'max', 'mean' or 'geometric'");
 }
 

@@ -13,13 +13,13 @@ using Vector = Eigen::Vector3d;
 
 // How the contact lies and how it moved during the last step.
 struct ContactGeometry {
-    double overlap = 0;                        // m, >= 0: the report's Eq 2 with its sign turned
-    Vector normal = Vector::UnitX();           // unit vector, 1 -> 2
-    Vector shear_increment = Vector::Zero();   // m, tangential displacement in this step
-    Vector tilt = Vector::Zero();              // rad, old normal x new normal
-    Vector twist = Vector::Zero();             // rad, turn of the contact about its own normal
-    double normal_velocity = 0;                // m/s, along the normal; negative while approaching
-    double time_step = 0;                      // s
+    double overlap = 0;                      // m, >= 0: the report's Eq 2 with its sign turned
+    Vector normal = Vector::UnitX();         // unit vector, 1 -> 2
+    Vector shear_increment = Vector::Zero(); // m, tangential displacement in this step
+    Vector tilt = Vector::Zero();            // rad, old normal x new normal
+    Vector twist = Vector::Zero();           // rad, turn of the contact about its own normal
+    double normal_velocity = 0;              // m/s, along the normal; negative while approaching
+    double time_step = 0;                    // s
 };
 
 // Constants of a contact, fixed when it is made. They do not depend on the law chosen: each law multiplies

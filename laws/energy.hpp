@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Where the energy of a contact goes. All in J, added up over the steps.
 //
-// Leapfrog takes F_m . (v_(m-1/2) + v_(m+1/2)) dt/2 from the motion at step m. Summed over the steps this is the
-// mean of the forces applied before and after each displacement increment, times that increment. The
-// book uses exactly this sum for the tangential spring, the slider and both dashpots, so that kinetic + elastic +
-// booked is constant up to the integrator's own error in the normal spring.
+// Leapfrog takes F_m . (v_(m-1/2) + v_(m+1/2)) dt/2 from the motion at step m. Summed over the steps this
+// is the mean of the forces applied before and after each displacement increment, times that increment. The
+// book uses exactly this sum for the tangential spring, the slider and both dashpots, so that kinetic +
+// elastic + booked is constant up to the integrator's own error in the normal spring.
 #pragma once
 
 #include <laws/tangential_force.hpp>
@@ -20,8 +20,9 @@ struct DissipationBook {
 
     double friction = 0; // work of slip; the elastic part of a step that slips is not in it
     double viscous = 0;  // both dashpots
-    // Elastic shear energy that goes when the contact stiffens at constant force or is rescaled as it softens.
-    // Negative under ReportTangential where Eq 4 makes energy.
+    // Elastic shear energy that goes when the contact stiffens at constant force or is rescaled as it
+    // softens. Negative where the law makes energy: ReportTangential as it softens, SecantTangential as it
+    // stiffens.
     double rescaling = 0;
 
     // The dashpots' part of the last applied force: belongs to the contact, kept from step to step.
@@ -33,13 +34,14 @@ struct DissipationBook {
         normal_viscous_force = viscous_force;
     }
 
-    // Elastic shear force: `before` the step (already turned with the contact), `rescaled`, after the increment
-    // (`trial`) and after the cap (`after`).
+    // Elastic shear force: `before` the step (already turned with the contact), `rescaled`, after the
+    // increment (`trial`) and after the cap (`after`).
     void add_shear(const Vector& before, double stiffness_before, const Vector& rescaled, const Vector& trial,
                    const Vector& after, double stiffness, const Vector& increment) {
-        rescaling += shear_elastic_energy(before, stiffness_before) - shear_elastic_energy(rescaled, stiffness) -
-                     0.5 * (before - rescaled).dot(increment);
-        if (stiffness > 0) friction += 0.5 * (rescaled + after).dot(trial - after) / stiffness;
+        rescaling += shear_elastic_energy(before, stiffness_before) -
+                     shear_elastic_energy(rescaled, stiffness) - 0.5 * (before - rescaled).dot(increment);
+        if (stiffness > 0)
+            friction += 0.5 * (rescaled + after).dot(trial - after) / stiffness;
     }
 
     void add_shear_viscous(const Vector& viscous_force, const Vector& increment) {

@@ -49,17 +49,21 @@ struct HertzMindlin {
     }
 
 private:
-    static void shear(const ContactGeometry& geometry, const ContactParameters& parameters, const Friction& friction,
-                      double root_overlap, double quarter_power, ContactMemory& memory, Energy& energy,
-                      ContactForce& force) {
-        const double stiffness = shear_stiffness<Normal, Tangential>(parameters.shear_coefficient, root_overlap);
+    [[gnu::always_inline]] static void shear(const ContactGeometry& geometry,
+                                             const ContactParameters& parameters, const Friction& friction,
+                                             double root_overlap, double quarter_power, ContactMemory& memory,
+                                             Energy& energy, ContactForce& force) {
+        const double stiffness =
+            shear_stiffness<Normal, Tangential>(parameters.shear_coefficient, root_overlap);
         force.shear_stiffness = stiffness;
         const Vector before = rotated_with_contact(memory.shear_force, geometry);
         Vector elastic = before;
         if constexpr (Tangential::rescales_on_loading) {
-            if (memory.shear_stiffness > 0) elastic *= stiffness / memory.shear_stiffness;
+            if (memory.shear_stiffness > 0)
+                elastic *= stiffness / memory.shear_stiffness;
         } else if constexpr (Tangential::rescales_on_unloading) {
-            if (stiffness < memory.shear_stiffness) elastic *= stiffness / memory.shear_stiffness;
+            if (stiffness < memory.shear_stiffness)
+                elastic *= stiffness / memory.shear_stiffness;
         }
         const Vector rescaled = elastic;
         elastic -= stiffness * geometry.shear_increment;
@@ -70,10 +74,10 @@ private:
             // sqrt(k_t / k_t of Hertz and Mindlin) at the same overlap.
             constexpr double factor = Tangential::square_root_of_factor * Normal::sixth_root_of_factor;
             const double c = factor * parameters.shear_damping * quarter_power;
-            Vector viscous = (-c / geometry.time_step) * geometry.shear_increment;
-            force.sliding = cap_shear(friction, load, elastic, viscous);
-            force.shear = elastic + viscous;
-            if constexpr (Energy::active) energy.add_shear_viscous(viscous, geometry.shear_increment);
+            const Vector viscous = (-c / geometry.time_step) * geometry.shear_increment;
+            force.sliding = cap_shear(friction, load, viscous, elastic, force.shear);
+            if constexpr (Energy::active)
+                energy.add_shear_viscous(force.shear - elastic, geometry.shear_increment);
         } else {
             force.sliding = cap_shear(friction, load, elastic);
             force.shear = elastic;

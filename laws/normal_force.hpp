@@ -4,10 +4,10 @@
 //   Hertz          F = 4/3 E* sqrt(R*) d^(3/2)             k_n = dF/dd = 3/2 F/d
 //   report, Eq 3   F = 2G/(3(1-nu)) sqrt(R_e) d^(3/2),     R_e = R1 R2/(R1 + R2)
 //
-// F in N, d overlap in m, E* = [(1-nu1^2)/E1 + (1-nu2^2)/E2]^-1 in Pa, R* = R1 R2/(R1 + R2) in m, G shear modulus
-// in Pa. For spheres of one material E* = G/(1-nu), so Eq 3 with R_e as the report defines it is one half
-// of Hertz's force. The printed equation knows one material only; for unlike ones it is read here as one
-// half of Hertz's force with their E*. Valid for overlaps much smaller than the radii.
+// F in N, d overlap in m, E* = [(1-nu1^2)/E1 + (1-nu2^2)/E2]^-1 in Pa, R* = R1 R2/(R1 + R2) in m, G shear
+// modulus in Pa. For spheres of one material E* = G/(1-nu), so Eq 3 with R_e as the report defines it is
+// one half of Hertz's force. The printed equation knows one material only; for unlike ones it is read here
+// as one half of Hertz's force with their E*. Valid for overlaps much smaller than the radii.
 //
 // `factor` is F / F_Hertz at the same overlap; its roots are spelled out because std::sqrt and std::cbrt
 // are not constexpr in C++17.

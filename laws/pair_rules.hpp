@@ -29,7 +29,8 @@ struct ElasticMaterial {
 inline void validate(const ElasticMaterial& material, const std::string& owner) {
     require_positive(owner + ".young", material.young);
     const double nu = material.poisson;
-    if (!(nu > -1 && nu <= 0.5)) reject(owner + ".poisson", nu, "in (-1, 0.5]");
+    if (!(nu > -1 && nu <= 0.5))
+        reject(owner + ".poisson", nu, "in (-1, 0.5]");
 }
 
 inline double shear_modulus(const ElasticMaterial& material) {
@@ -47,23 +48,30 @@ inline double effective_shear_modulus(const ElasticMaterial& first, const Elasti
 
 // x1 x2/(x1 + x2), with either one allowed to be infinite.
 inline double reduced(double first, double second) {
-    if (std::isinf(first)) return second;
-    if (std::isinf(second)) return first;
+    if (std::isinf(first))
+        return second;
+    if (std::isinf(second))
+        return first;
     return first * second / (first + second);
 }
 
-inline double effective_radius(double first, double second) { return reduced(first, second); }
-inline double effective_mass(double first, double second) { return reduced(first, second); }
+inline double effective_radius(double first, double second) {
+    return reduced(first, second);
+}
+inline double effective_mass(double first, double second) {
+    return reduced(first, second);
+}
 
 // Factor k^2 by which the load on a contact of enlarged grains exceeds that on the real ones it stands for.
 //
-// Grains made k times larger carry the same stress with k^2 times the force. k = R*/R*_ref, a flat wall being flat
-// in both. A reference radius of 0 means a body that was not enlarged.
+// Grains made k times larger carry the same stress with k^2 times the force. k = R*/R*_ref, a flat wall
+// being flat in both. A reference radius of 0 means a body that was not enlarged.
 inline double load_scale(double radius_1, double reference_1, double radius_2, double reference_2) {
     const double real_1 = reference_1 > 0 && std::isfinite(radius_1) ? reference_1 : radius_1;
     const double real_2 = reference_2 > 0 && std::isfinite(radius_2) ? reference_2 : radius_2;
     const double enlarged = effective_radius(radius_1, radius_2);
-    if (std::isinf(enlarged)) return 1;
+    if (std::isinf(enlarged))
+        return 1;
     const double k = enlarged / effective_radius(real_1, real_2);
     return k * k;
 }
@@ -76,8 +84,10 @@ inline ContactParameters contact_parameters(double modulus, double modulus_shear
     parameters.shear_coefficient = 8 * modulus_shear * root_radius;
     // Two bodies that are both held have no mass to damp.
     if (damping_ratio > 0 && std::isfinite(mass)) {
-        parameters.normal_damping = normal_damping_coefficient(damping_ratio, mass, parameters.normal_coefficient);
-        parameters.shear_damping = shear_damping_coefficient(damping_ratio, mass, parameters.shear_coefficient);
+        parameters.normal_damping =
+            normal_damping_coefficient(damping_ratio, mass, parameters.normal_coefficient);
+        parameters.shear_damping =
+            shear_damping_coefficient(damping_ratio, mass, parameters.shear_coefficient);
     }
     return parameters;
 }

@@ -23,20 +23,24 @@ namespace grainfall::laws {
 }
 
 inline void require_finite(const std::string& attribute, double value) {
-    if (!std::isfinite(value)) reject(attribute, value, "a finite number");
+    if (!std::isfinite(value))
+        reject(attribute, value, "a finite number");
 }
 
 inline void require_positive(const std::string& attribute, double value) {
-    if (!(std::isfinite(value) && value > 0)) reject(attribute, value, "> 0 and finite");
+    if (!(std::isfinite(value) && value > 0))
+        reject(attribute, value, "> 0 and finite");
 }
 
 inline void require_not_negative(const std::string& attribute, double value) {
-    if (!(std::isfinite(value) && value >= 0)) reject(attribute, value, ">= 0 and finite");
+    if (!(std::isfinite(value) && value >= 0))
+        reject(attribute, value, ">= 0 and finite");
 }
 
 // Both ends belong to the range.
 inline void require_between(const std::string& attribute, double value, double low, double high) {
-    if (value >= low && value <= high) return;
+    if (value >= low && value <= high)
+        return;
     std::ostringstream text;
     text << "in [" << low << ", " << high << "]";
     reject(attribute, value, text.str());
@@ -44,7 +48,8 @@ inline void require_between(const std::string& attribute, double value, double l
 
 // The support points of a table: at least one, none negative, each above the one before.
 inline void require_ascending(const std::string& attribute, const std::vector<double>& points) {
-    if (points.empty()) reject(attribute, "[]", "a list of at least one number");
+    if (points.empty())
+        reject(attribute, "[]", "a list of at least one number");
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::string element = attribute + "[" + std::to_string(i) + "]";
         require_not_negative(element, points[i]);
@@ -58,7 +63,8 @@ inline void require_ascending(const std::string& attribute, const std::vector<do
 
 inline void require_length(const std::string& attribute, std::size_t length, std::size_t expected,
                            const std::string& reason) {
-    if (length == expected) return;
+    if (length == expected)
+        return;
     reject(attribute, "list of length " + std::to_string(length),
            "of length " + std::to_string(expected) + " (" + reason + ")");
 }

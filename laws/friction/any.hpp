@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A curve whose kind is known only at run time, for scenes that mix kinds (sand with a power law on steel with a
-// constant). A scene with one kind uses that kind directly and has no switch in its loop.
+// A curve whose kind is known only at run time, for scenes that mix kinds (sand with a power law on steel
+// with a constant). A scene with one kind uses that kind directly and has no switch in its loop.
 #pragma once
 
 #include <laws/friction/asperity.hpp>
@@ -61,8 +61,12 @@ private:
     double lower_bound_ = 0;
 };
 
-inline double AnyOperand::coefficient(double load) const { return curve->coefficient(load); }
-inline double AnyOperand::lower_bound() const { return curve->lower_bound(); }
+inline double AnyOperand::coefficient(double load) const {
+    return curve->coefficient(load);
+}
+inline double AnyOperand::lower_bound() const {
+    return curve->lower_bound();
+}
 inline AnyOperand AnyOperand::scaled(double factor) const {
     return {std::make_shared<const Any>(curve->scaled(factor))};
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Friction of two unlike surfaces: both curves read at the same load, then one rule.
 //
-// min, max, mean and geometric mean all commute with a common factor and never lie below the same rule applied to the
-// lower bounds, so factors and bounds pass through to the two curves.
+// min, max, mean and geometric mean all commute with a common factor and never lie below the same rule
+// applied to the lower bounds, so factors and bounds pass through to the two curves.
 #pragma once
 
 #include <laws/combination_rule.hpp>

@@ -27,8 +27,8 @@ struct Exponential {
     }
 };
 
-// Through 0.8 at 1 N and 0.2 at 20 N, the two values the report quotes from Cole (2015). Two points leave one of three
-// parameters free; 5 N puts the fall in the middle of the measured range.
+// Through 0.8 at 1 N and 0.2 at 20 N, the two values the report quotes from Cole (2015). Two points leave
+// one of three parameters free; 5 N puts the fall in the middle of the measured range.
 inline Exponential cole_exponential() {
     const double load_scale = 5.0;
     const double at_1 = std::exp(-1.0 / load_scale), at_20 = std::exp(-20.0 / load_scale);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Factor on friction as a function of gravimetric moisture w (kg water per kg dry sand): straight between the given
-// points, constant beyond the outermost. Read when a contact is made. Published quartz data show no clear
-// fall with moisture (Senetakis, Coop & Todisco 2013), so there is no default curve.
+// Factor on friction as a function of gravimetric moisture w (kg water per kg dry sand): straight between
+// the given points, constant beyond the outermost. Read when a contact is made. Published quartz data show
+// no clear fall with moisture (Senetakis, Coop & Todisco 2013), so there is no default curve.
 #pragma once
 
 #include <laws/friction/table.hpp>

@@ -36,15 +36,18 @@ struct PowerLaw {
         require_not_negative("PowerLawFriction.exponent", exponent);
         require_not_negative("PowerLawFriction.muMin", mu_min);
         require_not_negative("PowerLawFriction.muMax", mu_max);
-        if (mu_max < mu_min) reject("PowerLawFriction.muMax", mu_max, "at least muMin");
+        if (mu_max < mu_min)
+            reject("PowerLawFriction.muMax", mu_max, "at least muMin");
     }
 
 private:
     static constexpr double tiny_load = 1e-300;
 };
 
-// Cole (2015) as the report quotes him: 0.8 at 1 N and 0.2 at 20 N, ln 4/ln 20 between. Held constant outside that
-// range, where nothing was measured.
-inline PowerLaw cole_power_law() { return {0.8, 1.0, std::log(4.0) / std::log(20.0), 0.2, 0.8}; }
+// Cole (2015) as the report quotes him: 0.8 at 1 N and 0.2 at 20 N, ln 4/ln 20 between. Held constant
+// outside that range, where nothing was measured.
+inline PowerLaw cole_power_law() {
+    return {0.8, 1.0, std::log(4.0) / std::log(20.0), 0.2, 0.8};
+}
 
 } // namespace grainfall::laws::friction

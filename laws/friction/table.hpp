@@ -16,15 +16,18 @@
 
 namespace grainfall::laws::friction {
 
-// Where a value lies among ascending points: between `lower` and `lower + 1` (or on `lower`), at this fraction.
+// Where a value lies among ascending points: between `lower` and `lower + 1` (or on `lower`), at this
+// fraction.
 struct Bracket {
     std::size_t lower = 0;
     double fraction = 0;
 };
 
 inline Bracket bracket(const std::vector<double>& points, double value) {
-    if (!(value > points.front())) return {0, 0.0};
-    if (value >= points.back()) return {points.size() - 1, 0.0};
+    if (!(value > points.front()))
+        return {0, 0.0};
+    if (value >= points.back())
+        return {points.size() - 1, 0.0};
     const auto above = std::upper_bound(points.begin(), points.end(), value);
     const auto lower = static_cast<std::size_t>(above - points.begin()) - 1;
     return {lower, (value - points[lower]) / (points[lower + 1] - points[lower])};
@@ -33,7 +36,8 @@ inline Bracket bracket(const std::vector<double>& points, double value) {
 inline double interpolate(const std::vector<double>& values, const Bracket& at, std::size_t stride = 1,
                           std::size_t offset = 0) {
     const double low = values[at.lower * stride + offset];
-    if (at.fraction == 0) return low;
+    if (at.fraction == 0)
+        return low;
     return low + at.fraction * (values[(at.lower + 1) * stride + offset] - low);
 }
 
@@ -47,7 +51,8 @@ public:
         return factor_ * interpolate(row_->mu, bracket(row_->loads, load * inverse_load_scale_));
     }
     double lower_bound() const { return factor_ * lowest_; }
-    // A shared row cannot take factors in, so a table carries them; they are read only where the contact may slide.
+    // A shared row cannot take factors in, so a table carries them; they are read only where the contact
+    // may slide.
     Table scaled(double factor) const {
         Table result = *this;
         result.factor_ *= factor;

@@ -8,6 +8,16 @@ namespace yade {
 YADE_PLUGIN((MoistureFactor)(FrictionCurve)(ConstantFriction)(PowerLawFriction)(ExponentialFriction)(AsperityFriction)(
     TableFriction)(CombinedFriction));
 
+// Defined here so that virtual tables and Python registration are compiled once.
+MoistureFactor::~MoistureFactor() = default;
+FrictionCurve::~FrictionCurve() = default;
+ConstantFriction::~ConstantFriction() = default;
+PowerLawFriction::~PowerLawFriction() = default;
+ExponentialFriction::~ExponentialFriction() = default;
+AsperityFriction::~AsperityFriction() = default;
+TableFriction::~TableFriction() = default;
+CombinedFriction::~CombinedFriction() = default;
+
 namespace py = boost::python;
 namespace gl = grainfall::laws;
 

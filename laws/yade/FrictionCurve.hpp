@@ -22,7 +22,7 @@ using ResolvedFriction = std::shared_ptr<const grainfall::laws::friction::Any>;
 /// Dependence of friction on water content alone, as a factor.
 class MoistureFactor : public Serializable {
 public:
-    virtual ~MoistureFactor() = default;
+    virtual ~MoistureFactor();
     void validate() const;
     void postLoad(MoistureFactor&) { validate(); }
     Real factor(Real moisture) const;
@@ -44,7 +44,7 @@ REGISTER_SERIALIZABLE(MoistureFactor);
 /// Base of all curves.
 class FrictionCurve : public Serializable {
 public:
-    virtual ~FrictionCurve() = default;
+    virtual ~FrictionCurve();
 
     /// The curve at this moisture, without the moisture factor.
     virtual grainfall::laws::friction::Any at_moisture(Real moisture) const;

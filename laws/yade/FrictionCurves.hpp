@@ -8,7 +8,7 @@ namespace yade {
 
 class ConstantFriction : public FrictionCurve {
 public:
-    virtual ~ConstantFriction() = default;
+    virtual ~ConstantFriction();
     grainfall::laws::friction::Constant kernel() const { return { mu }; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
@@ -29,7 +29,7 @@ REGISTER_SERIALIZABLE(ConstantFriction);
 
 class PowerLawFriction : public FrictionCurve {
 public:
-    virtual ~PowerLawFriction() = default;
+    virtual ~PowerLawFriction();
     grainfall::laws::friction::PowerLaw kernel() const { return { muRef, loadRef, exponent, muMin, muMax }; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
@@ -58,7 +58,7 @@ REGISTER_SERIALIZABLE(PowerLawFriction);
 
 class ExponentialFriction : public FrictionCurve {
 public:
-    virtual ~ExponentialFriction() = default;
+    virtual ~ExponentialFriction();
     grainfall::laws::friction::Exponential kernel() const { return { mu0, muInf, loadScale }; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
@@ -84,7 +84,7 @@ REGISTER_SERIALIZABLE(ExponentialFriction);
 
 class AsperityFriction : public FrictionCurve {
 public:
-    virtual ~AsperityFriction() = default;
+    virtual ~AsperityFriction();
     grainfall::laws::friction::Asperity kernel() const { return { alpha, c, muMax, muMin }; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
@@ -111,7 +111,7 @@ REGISTER_SERIALIZABLE(AsperityFriction);
 
 class TableFriction : public FrictionCurve {
 public:
-    virtual ~TableFriction() = default;
+    virtual ~TableFriction();
     grainfall::laws::friction::TableGrid kernel() const { return { loads, moistures, mu }; }
     grainfall::laws::friction::Any at_moisture(Real moisture) const override {
         return kernel().at_moisture(moisture);
@@ -135,7 +135,7 @@ REGISTER_SERIALIZABLE(TableFriction);
 
 class CombinedFriction : public FrictionCurve {
 public:
-    virtual ~CombinedFriction() = default;
+    virtual ~CombinedFriction();
     grainfall::laws::friction::Any at_moisture(Real moisture) const override;
     bool depends_on_moisture() const override;
     void validate() const override;

@@ -7,6 +7,9 @@ namespace yade {
 
 YADE_PLUGIN((GrainMat));
 
+// Defined here so that virtual tables and Python registration are compiled once.
+GrainMat::~GrainMat() = default;
+
 void GrainMat::validate() const {
     namespace gl = grainfall::laws;
     gl::validate(gl::ElasticMaterial { young, poisson }, "GrainMat");

@@ -10,7 +10,7 @@ namespace yade {
 
 class GrainMat : public FrictMat {
 public:
-    virtual ~GrainMat() = default;
+    virtual ~GrainMat();
 
     /// Throws std::invalid_argument naming the attribute, its value and the allowed range.
     void validate() const;

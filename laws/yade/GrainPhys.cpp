@@ -5,6 +5,9 @@ namespace yade {
 
 YADE_PLUGIN((GrainPhys));
 
+// Defined here so that virtual tables and Python registration are compiled once.
+GrainPhys::~GrainPhys() = default;
+
 void GrainPhys::resolve_friction() {
     resolved_ = friction ? friction->resolve(moisture, loadScale) : ResolvedFriction();
 }

@@ -11,7 +11,7 @@ namespace yade {
 
 class GrainPhys : public FrictPhys {
 public:
-    virtual ~GrainPhys() = default;
+    virtual ~GrainPhys();
 
     /// The friction curve with moisture and load scale folded in; meaningless where friction is constant
     /// (then tangensOfFrictionAngle says it all).

@@ -15,6 +15,10 @@ namespace yade {
 
 YADE_PLUGIN((GrainPair)(Ip2_GrainMat_GrainMat_GrainPhys));
 
+// Defined here so that virtual tables and Python registration are compiled once.
+GrainPair::~GrainPair() = default;
+Ip2_GrainMat_GrainMat_GrainPhys::~Ip2_GrainMat_GrainMat_GrainPhys() = default;
+
 namespace gl = grainfall::laws;
 
 namespace {

@@ -12,7 +12,7 @@ namespace yade {
 /// What holds between two named materials, in place of the rules.
 class GrainPair : public Serializable {
 public:
-    virtual ~GrainPair() = default;
+    virtual ~GrainPair();
 
     void validate() const;
     void postLoad(GrainPair&) { validate(); }
@@ -39,7 +39,7 @@ REGISTER_SERIALIZABLE(GrainPair);
 
 class Ip2_GrainMat_GrainMat_GrainPhys : public IPhysFunctor {
 public:
-    virtual ~Ip2_GrainMat_GrainMat_GrainPhys() = default;
+    virtual ~Ip2_GrainMat_GrainMat_GrainPhys();
 
     void go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2,
             const shared_ptr<Interaction>& interaction) override;

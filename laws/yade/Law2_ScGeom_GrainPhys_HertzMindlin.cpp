@@ -13,6 +13,9 @@ namespace yade {
 YADE_PLUGIN((Law2_ScGeom_GrainPhys_HertzMindlin));
 CREATE_LOGGER(Law2_ScGeom_GrainPhys_HertzMindlin);
 
+// Defined here so that virtual tables and Python registration are compiled once.
+Law2_ScGeom_GrainPhys_HertzMindlin::~Law2_ScGeom_GrainPhys_HertzMindlin() = default;
+
 bool Law2_ScGeom_GrainPhys_HertzMindlin::go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
                                             Interaction* interaction) {
     auto& phys = static_cast<GrainPhys&>(*physics);

@@ -17,7 +17,7 @@ namespace yade {
 class Law2_ScGeom_GrainPhys_HertzMindlin : public LawFunctor {
 public:
     Law2_ScGeom_GrainPhys_HertzMindlin(const Law2_ScGeom_GrainPhys_HertzMindlin&) = delete;
-    virtual ~Law2_ScGeom_GrainPhys_HertzMindlin() = default;
+    virtual ~Law2_ScGeom_GrainPhys_HertzMindlin();
 
     bool go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* interaction) override;
 

@@ -4,6 +4,7 @@
 
 #include <laws/hertz_mindlin.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
+#include <laws/yade/contact_rotation.hpp>
 
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
@@ -83,6 +84,8 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     geometry.overlap = geom.penetrationDepth;
     geometry.normal = geom.normal;
     geometry.shear_increment = geom.shearIncrement();
+    geometry.tilt = contact_tilt(geom);
+    geometry.twist = contact_twist(geom);
     geometry.time_step = scene.dt;
     if constexpr (Damping::active || Energy::active) {
         Vector3r shift_velocity = Vector3r::Zero();
@@ -94,7 +97,6 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     const gl::ContactParameters parameters { phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
                                              phys.shearDamping };
     gl::ContactMemory memory { phys.shearElastic, phys.ks };
-    if constexpr (Tangential::active) geom.rotate(memory.shear_force);
 
     Energy book;
     if constexpr (Energy::active) recall_viscous_forces<Normal>(phys, geom.normal, book);

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A bed of sand in YADE: its bodies, its contacts, and reading them back."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import yade.wrapper
+from yade import O, utils
+
+from grainfall.beds import Bed, BedSpec
+
+WALL_COUNT = 5
+
+
+def add_bed(bed: Bed, sand: Any, wall: Any) -> None:
+    """Add grains and walls to an empty scene; grain i becomes body i, the walls follow.
+
+    Parameters
+    ----------
+    sand, wall : GrainMat
+        Materials of grains and of the box.
+    """
+    if len(O.bodies) > 0:
+        raise RuntimeError("add_bed needs an empty scene: call O.reset() first")
+    O.materials.append([sand, wall])
+    O.bodies.append(
+        [
+            utils.sphere(centre, radius, material=sand)
+            for centre, radius in zip(bed.centres.tolist(), bed.radii.tolist())
+        ]
+    )
+    O.bodies.append(box_walls(bed.spec, wall))
+
+
+def box_walls(spec: BedSpec, material: Any) -> list[Any]:
+    """Walls -x, +x, -y, +y and the floor, each facing inwards."""
+    x, y = spec.length / 2, spec.width / 2
+    planes = ((-x, 0, 1), (x, 0, -1), (-y, 1, 1), (y, 1, -1), (0.0, 2, 1))
+    return [utils.wall(position, axis, sense, material=material) for position, axis, sense in planes]
+
+
+def restore_contacts(bed: Bed) -> None:
+    """Make the contacts that the bed was saved with and give them their shear forces.
+
+    To be called once the engines are set; without it a loaded bed would have to find its friction anew
+    and would sag.
+    """
+    for (first, second), shear in zip(bed.contacts.tolist(), bed.shear.tolist()):
+        contact = utils.createInteraction(first, second)
+        contact.phys.shearElastic = yade.wrapper.Vector3(shear)
+
+
+def grain_centres(count: int) -> np.ndarray:
+    """Centres of bodies 0 to count - 1, shape (count, 3) [m]."""
+    return np.array([O.bodies[index].state.pos for index in range(count)], dtype=float).reshape(-1, 3)
+
+
+def bed_contacts(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Contacts between grains and with walls: pairs, shape (c, 2), and elastic shear, shape (c, 3) [N]."""
+    pairs, shear = [], []
+    for contact in O.interactions:
+        if contact.isReal and max(contact.id1, contact.id2) < count + WALL_COUNT:
+            pairs.append((contact.id1, contact.id2))
+            shear.append(contact.phys.shearElastic)
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2), np.array(shear, dtype=float).reshape(-1, 3)

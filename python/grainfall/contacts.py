@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""From a sand's parameters to YADE's materials and engines, and the text form of friction curves."""
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import yade.wrapper
+
+# Words for curves on a command line: class, and the names of its parameters.
+CURVES = {
+    "constant": ("ConstantFriction", ("mu",)),
+    "power-law": ("PowerLawFriction", ("muRef", "loadRef", "exponent", "muMin", "muMax")),
+    "exponential": ("ExponentialFriction", ("mu0", "muInf", "loadScale")),
+    "asperity": ("AsperityFriction", ("alpha", "c", "muMax", "muMin")),
+}
+
+
+@dataclass(frozen=True)
+class Sand:
+    """What the contacts of a sand are made of.
+
+    Parameters
+    ----------
+    density : float
+        Of a grain [kg/m3].
+    young, poisson : float
+        Elastic constants of a grain [Pa], [-].
+    restitution : float
+        Coefficient of restitution [-].
+    friction : str
+        Curve as `friction_curve` reads it.
+    moisture : float
+        Gravimetric water content [kg/kg].
+    moisture_factor : str
+        Factor on friction by moisture as `moisture_factor` reads it; '' for none.
+    reference_diameter : float
+        Diameter of the real grain [m]; 0 where a grain stands for itself.
+    normal_law, tangential_law : str
+        Attributes of the contact law.
+    """
+
+    density: float
+    young: float
+    poisson: float
+    restitution: float
+    friction: str
+    moisture: float
+    moisture_factor: str
+    reference_diameter: float
+    normal_law: str
+    tangential_law: str
+
+    def material(self, label: str, **changes: Any) -> Any:
+        """GrainMat of these parameters; `changes` are attributes of GrainMat that differ."""
+        attributes = {
+            "young": self.young,
+            "poisson": self.poisson,
+            "density": self.density,
+            "restitution": self.restitution,
+            "gravimetricMoisture": self.moisture,
+            "referenceRadius": self.reference_diameter / 2,
+            "friction": friction_curve(self.friction, self.moisture_factor),
+            "label": label,
+        }
+        attributes.update(changes)
+        return yade.wrapper.GrainMat(**attributes)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain values, for hashing and saving."""
+        return asdict(self)
+
+
+def friction_curve(text: str, moisture_text: str = "") -> Any:
+    """Friction curve written as a number, as 'cole', or as CURVE:NAME=VALUE,...
+
+    Parameters
+    ----------
+    text : str
+        For example '0.5', 'cole', 'exponential:mu0=0.8,muInf=0.2,loadScale=5'.
+    moisture_text : str
+        Factor by moisture, see `moisture_factor`.
+
+    Returns
+    -------
+    FrictionCurve
+    """
+    curve = _curve(text)
+    if moisture_text:
+        curve.moistureFactor = moisture_factor(moisture_text)
+    return curve
+
+
+def _curve(text: str) -> Any:
+    word, _, rest = text.strip().partition(":")
+    if word == "cole" and not rest:
+        from grainfall.materials import cole_friction
+
+        return cole_friction()
+    if not rest and _number(word) is not None:
+        return yade.wrapper.ConstantFriction(mu=_number(word))
+    if word not in CURVES:
+        raise ValueError(
+            f"--friction = {text!r}: must be a number, 'cole', or one of "
+            f"{', '.join(CURVES)} followed by :NAME=VALUE,..."
+        )
+    class_name, names = CURVES[word]
+    parameters = {}
+    for item in filter(None, rest.split(",")):
+        name, _, value = item.partition("=")
+        if name not in names or _number(value) is None:
+            raise ValueError(
+                f"--friction = {text!r}: {item!r} must be NAME=NUMBER with NAME one of "
+                f"{', '.join(names)}"
+            )
+        parameters[name] = _number(value)
+    return getattr(yade.wrapper, class_name)(**parameters)
+
+
+def moisture_factor(text: str) -> Any:
+    """MoistureFactor written as MOISTURE:FACTOR,... , for example '0:1,0.023:0.9'."""
+    moistures, factors = [], []
+    for item in text.split(","):
+        moisture, _, factor = item.partition(":")
+        if _number(moisture) is None or _number(factor) is None:
+            raise ValueError(
+                f"--moisture-factor = {text!r}: {item!r} must be MOISTURE:FACTOR, two numbers"
+            )
+        moistures.append(_number(moisture))
+        factors.append(_number(factor))
+    return yade.wrapper.MoistureFactor(moistures=moistures, factors=factors)
+
+
+def _number(text: str) -> float | None:
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def contact_loop(sand: Sand, pairs: list[Any], geometry: list[Any]) -> Any:
+    """InteractionLoop of our law for spheres, walls and whatever `geometry` adds.
+
+    Parameters
+    ----------
+    pairs : list of GrainPair
+        Friction and restitution of named pairs of materials.
+    geometry : list of IGeomFunctor
+        Functors beside sphere-sphere and wall-sphere.
+    """
+    w = yade.wrapper
+    return w.InteractionLoop(
+        [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Wall_Sphere_ScGeom(hertzian=True), *geometry],
+        [w.Ip2_GrainMat_GrainMat_GrainPhys(pairs=pairs, label="contact_maker")],
+        [
+            w.Law2_ScGeom_GrainPhys_HertzMindlin(
+                normalLaw=sand.normal_law, tangentialLaw=sand.tangential_law, label="contact_law"
+            )
+        ],
+        label="contacts",
+    )
+
+
+def rayleigh_step(radius: float, density: float, young: float, poisson: float) -> float:
+    """Time a Rayleigh wave takes around half a sphere [s].
+
+    pi R sqrt(rho / G) / (0.1631 nu + 0.8766), the usual measure of the critical step of a bed of spheres.
+    """
+    shear_modulus = young / (2 * (1 + poisson))
+    return math.pi * radius * math.sqrt(density / shear_modulus) / (0.1631 * poisson + 0.8766)
