@@ -30,8 +30,8 @@ from grainfall.packings import Box, grain_radii, random_packing, solid_fraction_
 GRAVITY = 9.81
 KINETIC_LIMIT = 2e-4
 UNBALANCED_LIMIT = 0.01
-DAMPING = 0.2
-SETTLING_RESTITUTION = 0.8
+DAMPING = 0.4
+SETTLING_RESTITUTION = 0.95
 # Fraction of the Rayleigh step; at 0.4 of it a bed of restitution 0.6 never comes to rest (measured).
 STEP_FRACTION = 0.25
 CHECK_INTERVAL = 50

@@ -64,6 +64,11 @@ def engines(time_step: float, gravity: float = 0.0, load_of: int = -1, **physics
     return load
 
 
+def real_contacts(body: Any) -> list[Any]:
+    """Interactions of a body that have geometry and physics."""
+    return [i for i in O.interactions if i.isReal and body.id in (i.id1, i.id2)]
+
+
 def vector(value: Any) -> np.ndarray:
     """A YADE vector as numpy array (3,)."""
     return np.array(list(value))

@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 import contact_scenes as cs
 import pytest
+from grainfall.materials import check_scene
 from yade import (
     AsperityFriction,
     CombinedFriction,
@@ -190,6 +191,57 @@ def test_there_are_more_than_twenty_five_wrong_values():
 def test_unknown_attribute_is_refused_by_name():
     with pytest.raises(AttributeError, match="moisture"):
         GrainMat(moisture=0.02)
+
+
+def test_pair_of_an_unknown_label_is_found_by_the_check_of_the_scene():
+    O.materials.append(GrainMat(label="sand"))
+    cs.set_engines(cs.grain_law({"pairs": [GrainPair("sand", "steal", friction=0.2)]}))
+    assert_one_clear_error(check_scene, "GrainPair.second", "'steal'", "'sand'")
+
+
+@pytest.mark.parametrize(
+    "attributes, word",
+    [
+        (lambda: dict(friction=TableFriction([1], [0, 0.1], [[0.5, 0.4]])), "moisture"),
+        (lambda: dict(friction=0.4, referenceRadius=1e-4), "referenceRadius"),
+    ],
+    ids=["moisture curve in a dry scene", "coarse grain with constant friction"],
+)
+def test_effect_that_cannot_act_is_warned_of_by_the_check_of_the_scene(attributes, word):
+    O.materials.append(GrainMat(label="sand", **attributes()))
+    cs.set_engines(cs.grain_law())
+    (warning,) = check_scene()
+    assert warning.startswith("sand: ")
+    assert word in warning
+
+
+def test_scene_without_mistakes_passes_its_check():
+    O.materials.append([GrainMat(label="sand"), GrainMat(label="steel")])
+    cs.set_engines(cs.grain_law({"pairs": [GrainPair("sand", "steel", friction=0.2)]}))
+    assert check_scene() == []
+
+
+@pytest.mark.parametrize(
+    "good, bad",
+    [
+        ("<young>12345678", "<young>-12345678"),
+        ("<restitution>0.625", "<restitution>1.625"),
+        ("<mu>0.375", "<mu>-0.375"),
+        ("<normalLaw>hertz", "<normalLaw>hurtz"),
+    ],
+)
+def test_saved_scene_with_a_wrong_value_is_refused_when_loaded(good, bad, tmp_path):
+    material = GrainMat(young=12345678, restitution=0.625, friction=ConstantFriction(0.375))
+    O.materials.append(material)
+    cs.set_engines(cs.grain_law())
+    file = tmp_path / "scene.xml"
+    O.save(str(file))
+    text = file.read_text(encoding="utf-8")
+    assert text.count(good) == 1
+    file.write_text(text.replace(good, bad), encoding="utf-8")
+    O.reset()
+    with pytest.raises((ValueError, RuntimeError), match="must be"):
+        O.load(str(file))
 
 
 def test_a_simulation_runs_as_if_nothing_had_happened_after_a_refusal():

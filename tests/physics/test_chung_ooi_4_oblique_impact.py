@@ -89,7 +89,8 @@ def test_gross_sliding_follows_from_momentum_alone(name):
     spin = 2.5 * loss * SPEED * np.cos(np.radians(degrees)) / RADIUS
     patch = np.arctan((tangent - 3.5 * loss) / RESTITUTION)
     # What is left is the error of the restitution, a few 1e-5, and that of the step. The arm of the
-    # torque is the radius less the overlap, which is 0.3 % (oxide) or 0.5 % (alloy) of it at the peak.
+    # torque is the radius less the overlap, which is 0.3 % (oxide) or 0.5 % (alloy) of it at the
+    # peak.
     assert result.tangential == pytest.approx(1 - loss / tangent, rel=1e-3)
     assert result.spin == pytest.approx(spin, rel=6e-3)
     assert result.patch_angle == pytest.approx(patch, abs=math.radians(0.2))

@@ -65,8 +65,9 @@ def test_kinetic_energy_lost_in_collisions_is_the_energy_booked(
 ):
     lost = oblique_collision(restitution, degrees, tangential_law)
     before = lost + kinetic_energy()
-    # Leapfrog errs by 1e-7 at 1000 steps a collision. What is left is YADE's remedy against ratcheting:
-    # its shear increments are longer by the share of overlap in the radii, here up to 1e-3.
+    # Leapfrog errs by 1e-7 at 1000 steps a collision. What is left is YADE's remedy against
+    # ratcheting: its shear increments are longer by the share of overlap in the radii, here up to
+    # 1e-3.
     assert sum(booked().values()) == pytest.approx(lost, abs=1e-4 * before)
 
 
@@ -109,7 +110,6 @@ def test_settling_pack_keeps_its_books():
         elastic = sum(law[1][0].elasticEnergy().values())
         released = start - potential_energy()
         residual = released - kinetic_energy() - elastic - sum(booked().values())
-        print("PACK", released, kinetic_energy(), elastic, booked(), residual / released)
         # Velocities stand half a step before the positions: gravity alone leaves g v dt/2 per mass,
         # 1e-4 here.
         assert abs(residual) < 2e-3 * released

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Facts: InteractionContainer is 192 bytes, its linear vector (real and potential interactions) at 24; find and
-// requestErase are exported; an erased interaction stays as potential until the collider drops it. Verified:
+// requestErase are exported; Python does not know the class; an erased interaction stays as potential until the collider drops it. Verified:
 // tests/abi.
 #pragma once
 
@@ -41,7 +41,7 @@ public:
     void requestErase(Interaction*);
 
     InteractionContainer() = delete;
-    YADE_ABI_STOCK_CLASS(InteractionContainer)
+    YADE_ABI_STOCK_CLASS_WITHOUT_PYTHON(InteractionContainer)
 
     friend struct InteractionContainerLayout;
 };

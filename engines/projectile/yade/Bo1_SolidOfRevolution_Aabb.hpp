@@ -22,8 +22,9 @@ public:
           "one of the spheres suffices."))
         ((Real, turnMargin, 0.02, Attr::triggerPostLoad,
           "Margin around the box relative to the solid's :yref:`SolidOfRevolution.boundingRadius`, > 0 [-]. A collider "
-          "follows how far bodies move, not how far they turn; after half this angle (rad) the geometry functors and "
-          ":yref:`ProjectileLoad` ask it to run again. Larger: fewer runs, more grains looked at."))
+          "follows how far bodies move, not how far they turn; after half this angle (rad) the collider is asked to run again, by "
+          ":yref:`ProjectileLoad` in every step, by the geometry functors while anything is near. So a scene whose projectile may "
+          "turn far from everything needs a :yref:`ProjectileLoad`. Larger: fewer runs, more grains looked at."))
     );
     // clang-format on
 };

@@ -45,6 +45,24 @@ std::vector<geometry::ProfileVertex> verticesOf(const std::vector<Vector3r>& pro
     return vertices;
 }
 
+// (z, r) of a straight piece or (z, r, bulge), from any sequence of numbers.
+Vector3r vertexFrom(const boost::python::object& given, long index) {
+    try {
+        const long count = boost::python::len(given);
+        if (count == 2 || count == 3) {
+            Vector3r vertex = Vector3r::Zero();
+            for (long i = 0; i < count; ++i)
+                vertex[i] = boost::python::extract<Real>(given[i]);
+            return vertex;
+        }
+    } catch (const boost::python::error_already_set&) {
+        PyErr_Clear();
+    }
+    const std::string text = boost::python::extract<std::string>(boost::python::str(given));
+    throw std::invalid_argument("SolidOfRevolution.profile: vertex " + std::to_string(index) + " is " + text +
+                                "; allowed: (z, r) or (z, r, bulge), in m, m and 1");
+}
+
 void refuseUnlessPositive(const char* method, Real value, const char* unit) {
     if (!(std::isfinite(value) && value > 0))
         throw std::invalid_argument(std::string("SolidOfRevolution.") + method + " = " +
@@ -72,9 +90,17 @@ void SolidOfRevolution::postLoad(SolidOfRevolution&) {
 }
 
 void SolidOfRevolution::pyHandleCustomCtorArgs(boost::python::tuple&, boost::python::dict& keywords) {
-    if (boost::python::len(keywords) > 0 && !keywords.has_key("profile"))
-        throw std::invalid_argument("SolidOfRevolution.profile: not given; allowed: at least 2 vertices "
-                                    "(z, r, bulge)");
+    if (boost::python::len(keywords) == 0) // an empty object, as files and copies need it
+        return;
+    const boost::python::object given = keywords.get("profile", boost::python::list());
+    boost::python::list vertices;
+    for (long i = 0; i < boost::python::len(given); ++i)
+        vertices.append(vertexFrom(given[i], i));
+    if (boost::python::len(vertices) < 2)
+        throw std::invalid_argument(
+            "SolidOfRevolution.profile: " + std::to_string(boost::python::len(vertices)) +
+            " vertices; allowed: at least 2");
+    keywords["profile"] = vertices;
 }
 
 Vector3r SolidOfRevolution::inertia(Real density) const {

@@ -64,7 +64,7 @@ public:
         "contact per grain. Profile and zones are fixed once the object exists; they and every other length are in metres. "
         "Needs :yref:`Bo1_SolidOfRevolution_Aabb` and :yref:`Ig2_SolidOfRevolution_Sphere_ScGeom`.",
         ((vector<Vector3r>, profile, , Attr::readonly,
-          "Vertices (z, r, bulge) of the generating curve from nose to base, z and r in m. Any origin of z; the first and the "
+          "Vertices (z, r) or (z, r, bulge) of the generating curve from nose to base, z and r in m. Any origin of z; the first and the "
           "last vertex lie on the axis (r = 0). Bulge [-] of the piece from this vertex to the next = tan(included angle / 4): "
           "0 a straight line, > 0 an arc that stands out, < 0 a hollow one, 1 half a circle; of the last vertex it is ignored."))
         ((vector<string>, zones, , Attr::readonly,

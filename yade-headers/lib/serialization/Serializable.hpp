@@ -160,7 +160,7 @@ public:
 
 // What every class of the library overrides; with the undefined destructor its vtable and type information are the
 // library's own.
-#define YADE_ABI_STOCK_CLASS(klass)                                                                                    \
+#define YADE_ABI_STOCK_CLASS_WITHOUT_PYTHON(klass)                                                                     \
 public:                                                                                                                \
     virtual ~klass();                                                                                                  \
     std::string getBaseClassName(unsigned int = 0) const override;                                                     \
@@ -168,7 +168,10 @@ public:                                                                         
     std::string getClassName() const override;                                                                         \
     void pySetAttr(const std::string& key, const boost::python::object& value) override;                               \
     boost::python::dict pyDict() const override;                                                                       \
-    void callPostLoad() override;                                                                                      \
+    void callPostLoad() override;
+
+#define YADE_ABI_STOCK_CLASS(klass)                                                                                    \
+    YADE_ABI_STOCK_CLASS_WITHOUT_PYTHON(klass)                                                                         \
     void pyRegisterClass(boost::python::object scope) override;
 
 YADE_ABI_STOCK_SERIALIZERS(Serializable)
