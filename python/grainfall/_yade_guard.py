@@ -38,7 +38,7 @@ class YadeBuild:
     build_ids: dict[str, str]
 
     def __str__(self) -> str:
-        return f"YADE {self.version} with {self.bits}-bit real numbers"
+        return f"YADE {self.version} ({self.bits}-bit real numbers)"
 
 
 VERIFIED = YadeBuild(
@@ -106,8 +106,8 @@ def running_build() -> YadeBuild:
         import yade.config
     except ImportError as error:
         raise ImportError(
-            f"grainfall runs inside {VERIFIED} (verified), and this interpreter ({sys.executable}) has no YADE: "
-            "start the script with 'yade'."
+            f"grainfall found no YADE in this interpreter ({sys.executable}), and runs inside the verified "
+            f"{VERIFIED}: start the script with 'yade'."
         ) from error
     libraries = Path(yade.config.libDir)
     return YadeBuild(
@@ -121,16 +121,18 @@ def objection(found: YadeBuild, verified: YadeBuild) -> str:
     """Why this version or precision is refused, as one sentence; '' if it is not."""
     if (found.version, found.bits) == (verified.version, verified.bits):
         return ""
-    return f"grainfall found {found}, but is verified with {verified} only."
+    return f"grainfall found {found}, but only {verified} is verified."
 
 
 def build_objection(found: YadeBuild, verified: YadeBuild) -> str:
     """Why this build of the right version is doubted, as one sentence; '' if it is not."""
-    others = [name for name, known in verified.build_ids.items() if found.build_ids.get(name) != known]
+    others = [
+        name for name, known in verified.build_ids.items() if found.build_ids.get(name) != known
+    ]
     if not others:
         return ""
     return (
-        f"grainfall found {found} in another build of {', '.join(others)} than the verified one "
+        f"grainfall found {found} with another build of {', '.join(others)} than the verified one "
         f"(build id {', '.join(verified.build_ids[name] for name in others)}); "
         f"set {ALLOW_VARIABLE}=1 to use it nevertheless."
     )
@@ -163,8 +165,14 @@ def _check_installation(library_dir: Path, any_version: bool) -> int:
     found = installed_build(library_dir)
     refused = objection(found, VERIFIED) or build_objection(found, VERIFIED)
     if any_version:
-        refused = "" if found.bits == 64 else f"grainfall needs 64-bit real numbers and found {found}."
-    if refused and os.environ.get(ALLOW_VARIABLE, "") not in ("", "0") and not objection(found, VERIFIED):
+        refused = (
+            "" if found.bits == 64 else f"grainfall needs 64-bit real numbers and found {found}."
+        )
+    if (
+        refused
+        and os.environ.get(ALLOW_VARIABLE, "") not in ("", "0")
+        and not objection(found, VERIFIED)
+    ):
         print(refused, file=sys.stderr)
         refused = ""
     print(refused or ";".join([found.version, str(found.bits), *found.build_ids.values()]), end="")

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import yade.wrapper
-from yade import O, utils
+from yade import O, Vector3, utils
 
 from grainfall.beds import Bed, BedSpec
 
@@ -37,7 +36,9 @@ def box_walls(spec: BedSpec, material: Any) -> list[Any]:
     """Walls -x, +x, -y, +y and the floor, each facing inwards."""
     x, y = spec.length / 2, spec.width / 2
     planes = ((-x, 0, 1), (x, 0, -1), (-y, 1, 1), (y, 1, -1), (0.0, 2, 1))
-    return [utils.wall(position, axis, sense, material=material) for position, axis, sense in planes]
+    return [
+        utils.wall(position, axis, sense, material=material) for position, axis, sense in planes
+    ]
 
 
 def restore_contacts(bed: Bed) -> None:
@@ -48,12 +49,14 @@ def restore_contacts(bed: Bed) -> None:
     """
     for (first, second), shear in zip(bed.contacts.tolist(), bed.shear.tolist()):
         contact = utils.createInteraction(first, second)
-        contact.phys.shearElastic = yade.wrapper.Vector3(shear)
+        contact.phys.shearElastic = Vector3(shear)
 
 
 def grain_centres(count: int) -> np.ndarray:
     """Centres of bodies 0 to count - 1, shape (count, 3) [m]."""
-    return np.array([O.bodies[index].state.pos for index in range(count)], dtype=float).reshape(-1, 3)
+    return np.array([O.bodies[index].state.pos for index in range(count)], dtype=float).reshape(
+        -1, 3
+    )
 
 
 def bed_contacts(count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -63,4 +66,6 @@ def bed_contacts(count: int) -> tuple[np.ndarray, np.ndarray]:
         if contact.isReal and max(contact.id1, contact.id2) < count + WALL_COUNT:
             pairs.append((contact.id1, contact.id2))
             shear.append(contact.phys.shearElastic)
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2), np.array(shear, dtype=float).reshape(-1, 3)
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2), np.array(shear, dtype=float).reshape(
+        -1, 3
+    )

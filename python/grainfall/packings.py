@@ -64,7 +64,11 @@ def grain_radii(
     """
     mean_volume = math.pi / 6 * diameter**3 * (1 + spread**2)
     layer = WALL_VOID_IN_DIAMETERS * diameter
-    core = max(box.length - 2 * layer, 0) * max(box.width - 2 * layer, 0) * max(box.depth - 2 * layer, 0)
+    core = (
+        max(box.length - 2 * layer, 0)
+        * max(box.width - 2 * layer, 0)
+        * max(box.depth - 2 * layer, 0)
+    )
     count = max(1, round(solid_fraction * core / mean_volume))
     return diameter / 2 * (1 + spread * rng.uniform(-1, 1, count))
 

@@ -42,6 +42,19 @@ def surface_mesh(body: Any, meridians: int = 48) -> tuple[np.ndarray, np.ndarray
     return points, np.array(triangles, dtype=np.int32).reshape(-1, 3), numbers
 
 
+def outline(shape: Any) -> np.ndarray:
+    """Generating curve of a SolidOfRevolution as a polyline, nose to base, in its own axes.
+
+    Returns
+    -------
+    (n, 2) float
+        Points (z, r) [m].
+    """
+    vertices, _, _ = shape.mesh(4)
+    rings = dict.fromkeys((round(z, 12), round(float(np.hypot(x, y)), 12)) for x, y, z in vertices)
+    return np.array(list(rings), dtype=float)
+
+
 def write_stl(path: str | Path, body: Any, meridians: int = 96) -> None:
     """Write a binary STL file (lengths in m) of a body or shape."""
     points, triangles, _ = surface_mesh(body, meridians)

@@ -70,14 +70,15 @@ py::dict call_virtual_functions(Serializable& object) {
         results["getClassIndex"] = indexable->getClassIndex();
         results["getMaxCurrentlyUsedClassIndexOfKin"] = indexable->getMaxCurrentlyUsedClassIndexOfKin();
     }
-    if (const auto* functor = dynamic_cast<const Functor*>(&object))
-        results["getFunctorTypes"] = functor->getFunctorTypes();
-    if (const auto* functor = dynamic_cast<const IGeomFunctor*>(&object))
-        results["checkOrder"] = functor->checkOrder();
     if (const auto* material = dynamic_cast<const Material*>(&object))
         results["newAssocState"] = material->newAssocState()->getClassName();
     if (auto* engine = dynamic_cast<Engine*>(&object)) results["isActivated"] = engine->isActivated();
     return results;
+}
+
+/// Argument classes of a geometry functor, and their order if it has one. Base classes throw.
+py::tuple functor_arguments(const IGeomFunctor& functor) {
+    return py::make_tuple(functor.getFunctorTypes(), functor.checkOrder());
 }
 
 /// Addresses of what only a scene knows, found by ordinary member access.
@@ -132,6 +133,7 @@ BOOST_PYTHON_MODULE(abi_probe) {
     py::def("pointer", &pointer);
     py::def("address", &address);
     py::def("call_virtual_functions", &call_virtual_functions);
+    py::def("functor_arguments", &functor_arguments);
     py::def("scene_parts", &scene_parts);
     py::def("compiled_offsets", &compiled_offsets);
     py::def("plugin_classes", &plugin_classes);

@@ -26,6 +26,8 @@ from yade import (
     utils,
 )
 
+pytestmark = pytest.mark.filterwarnings("ignore:dynamic=True is deprecated")  # in levelSetBody
+
 SOLID = cs.Solid(7.0e9, 0.3, 2700)
 RADIUS = 0.01
 SPEED = 1.0

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
-from grainfall.drop.options import Option, OptionError, OptionTable
+from grainfall.drop.options import Option, OptionTable
 
 GRAVITY = 9.81  # m/s2
 
@@ -96,7 +95,9 @@ RUN = (
         low=0,
         runtime=True,
     ),
-    Option("record_interval", 1e-4, "time between two rows of the trace", "s", low=0, open_low=True),
+    Option(
+        "record_interval", 1e-4, "time between two rows of the trace", "s", low=0, open_low=True
+    ),
     Option(
         "checkpoint_interval",
         0.02,
@@ -113,12 +114,15 @@ RUN = (
         low=0,
         runtime=True,
     ),
+    Option("no_energy", False, "book no energies: faster, no energy residual", kind=bool),
     Option("no_plots", False, "write no pictures and no HTML page", kind=bool, runtime=True),
     Option("quiet", False, "no progress bar and no printed summary", kind=bool, runtime=True),
 )
 
 SAND = (
-    Option("grain_diameter", 8e-3, "mean diameter of the simulated grains", "m", low=1e-4, high=0.05),
+    Option(
+        "grain_diameter", 8e-3, "mean diameter of the simulated grains", "m", low=1e-4, high=0.05
+    ),
     Option(
         "grain_spread",
         0.1,
@@ -179,7 +183,12 @@ PROJECTILE = (
     Option("mass", 0.40964, "mass of the projectile", "kg", low=0, open_low=True),
     Option("drop_height", None, "height of free fall above the surface", "m", low=0, high=100),
     Option(
-        "impact_speed", None, "speed at the surface, instead of a drop height", "m/s", low=0, high=100
+        "impact_speed",
+        None,
+        "speed at the surface, instead of a drop height",
+        "m/s",
+        low=0,
+        high=100,
     ),
     Option("tilt_degrees", 0.0, "angle of the axis to the vertical", "degrees", low=-90, high=90),
     Option("spin", 0.0, "rotation about its own axis", "rad/s"),
@@ -219,23 +228,41 @@ BED = (
         low=0,
         high=10_000_000,
     ),
-    Option("solid_fraction", 0.6, "packed volume over volume, before settling", "-", low=0.4, high=0.64),
-    Option("bed", "", "name under which the bed is kept, instead of one made of its parameters", kind=str),
+    Option(
+        "solid_fraction", 0.6, "packed volume over volume, before settling", "-", low=0.4, high=0.64
+    ),
+    Option(
+        "bed",
+        "",
+        "name under which the bed is kept, instead of one made of its parameters",
+        kind=str,
+    ),
     Option("bed_cache", "", "folder of prepared beds (default: ~/.cache/grainfall/beds)", kind=str),
 )
 
 NUMERICS = (
-    Option("dt_safety", 0.2, "time step over the Rayleigh step of the smallest grain", "-", low=0.001, high=1),
+    Option(
+        "dt_safety",
+        0.2,
+        "time step over the Rayleigh step of the smallest grain",
+        "-",
+        low=0.001,
+        high=1,
+    ),
     Option("time_step", None, "fixed time step, instead of --dt-safety", "s", low=0, open_low=True),
     Option(
-        "normal_law", "hertz", "normal force of the contact law", kind=str, choices=("hertz", "report")
+        "normal_law",
+        "hertz",
+        "normal force of the contact law",
+        kind=str,
+        choices=("hertz", "report"),
     ),
     Option(
         "tangential_law",
         "incremental",
         "tangential force of the contact law",
         kind=str,
-        choices=("incremental", "report", "none"),
+        choices=("incremental", "report", "secant", "none"),
     ),
 )
 

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""From the trace of a drop to its results."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from grainfall.report.plots import camera_average
+
+
+def touch_time(trace: Mapping[str, np.ndarray]) -> float:
+    """Time of the first row with a contact on the projectile [s]; of the last row if there is none."""
+    touching = np.flatnonzero(trace["contacts"] > 0)
+    return float(trace["time_s"][touching[0] if len(touching) else -1])
+
+
+def drop_results(trace: Mapping[str, np.ndarray], mass: float, rest_speed: float) -> dict[str, Any]:
+    """Depth, speeds, forces and stages of a drop.
+
+    Parameters
+    ----------
+    trace : mapping of str to numpy.ndarray, shape (rows,)
+        Columns of `grainfall.drop.trace.COLUMNS`.
+    mass : float
+        Of the projectile [kg].
+    rest_speed : float
+        The projectile has stopped when it first moves slower than this [m/s].
+
+    Returns
+    -------
+    dict
+        Times count from the first touch. ``peak_force_N`` is the largest single sample;
+        ``peak_force_camera_N`` that of the mean over one frame of the report's camera (389 1/s).
+    """
+    start = touch_time(trace)
+    after = trace["time_s"] >= start
+    t = trace["time_s"][after] - start
+    force = trace["force_N"][after]
+    speed = trace["velocity_m_per_s"][after]
+    smooth = camera_average(t, force)
+    peak, smooth_peak = int(np.argmax(force)), int(np.argmax(smooth))
+    slow = np.flatnonzero(speed < rest_speed)
+    stop = float(t[slow[0]]) if len(slow) else None
+    depth = trace["depth_m"]
+    return {
+        "depth_m": float(depth[-1]),
+        "largest_depth_m": float(depth.max()),
+        "impact_speed_m_per_s": float(speed[0]),
+        "final_speed_m_per_s": float(speed[-1]),
+        "peak_force_N": float(force[peak]),
+        "peak_force_time_s": float(t[peak]),
+        "peak_force_camera_N": float(smooth[smooth_peak]),
+        "peak_force_camera_time_s": float(t[smooth_peak]),
+        "peak_deceleration_camera_m_per_s2": float(smooth[smooth_peak]) / mass,
+        "stop_time_s": stop,
+        "final_tilt_deg": float(trace["tilt_deg"][-1]),
+        "impulse_N_s": float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(t))),
+        "stages": stages(t, smooth, stop),
+    }
+
+
+def stages(t: np.ndarray, smooth: np.ndarray, stop: float | None) -> dict[str, Any]:
+    """The three stages of MR-2629, section 4.2, from the frame-averaged force.
+
+    Stage 1, velocity rolls off: until the force first passes half its peak. Stage 2, deceleration
+    rises to its maximum: until the peak. Stage 3: from the peak until rest.
+
+    Parameters
+    ----------
+    t, smooth : numpy.ndarray, shape (n,)
+        Time since first touch [s], frame-averaged force [N].
+    stop : float or None
+        Time of rest [s].
+    """
+    peak = int(np.argmax(smooth))
+    half = int(np.flatnonzero(smooth[: peak + 1] >= 0.5 * smooth[peak])[0])
+    end = stop if stop is not None else float(t[-1])
+    return {
+        "stage_2_start_s": float(t[half]),
+        "stage_3_start_s": float(t[peak]),
+        "stage_3_end_s": end,
+        "three_stages_visible": bool(0 < t[half] < t[peak] < end),
+    }
+
+
+def energy_results(energy: Mapping[str, np.ndarray], mass: float, speed: float) -> dict[str, Any]:
+    """Residual of the energy balance.
+
+    Parameters
+    ----------
+    energy : mapping of str to numpy.ndarray, shape (rows,)
+        Columns of `grainfall.drop.trace.ENERGY_COLUMNS`; may be empty.
+    mass, speed : float
+        Of the projectile at impact [kg], [m/s].
+
+    Returns
+    -------
+    dict
+        ``energy_residual_J``: largest change of the total; ``energy_residual_relative``: the same over the
+        energy in play, kinetic energy of the impact plus potential energy released; None without rows.
+    """
+    if len(energy["time_s"]) < 2:
+        return {"energy_residual_relative": None}
+    total = energy["total_J"]
+    released = float(energy["potential_J"][0] - energy["potential_J"].min())
+    in_play = 0.5 * mass * speed**2 + released
+    residual = float(np.max(np.abs(total - total[0])))
+    return {
+        "energy_residual_J": residual,
+        "energy_residual_relative": residual / in_play,
+        "energy_in_play_J": in_play,
+        "dissipated_by_friction_J": float(energy["friction_J"][-1] - energy["friction_J"][0]),
+        "dissipated_by_dashpots_J": float(energy["viscous_J"][-1] - energy["viscous_J"][0]),
+        "dissipated_by_rescaling_J": float(energy["rescaling_J"][-1] - energy["rescaling_J"][0]),
+    }

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Running a drop from parameters to results folder: prepare, run, stop, resume, sum up."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yade
+from yade import O
+
+from grainfall.beds import Bed, load_bed, obtain_bed, save_bed
+from grainfall.drop import trace as traces
+from grainfall.drop.parameters import QUICK, TABLE, OptionError
+from grainfall.drop.progress import Progress
+from grainfall.drop.results import touch_time
+from grainfall.drop.scene import bed_spec, build_scene, projectile_id
+from grainfall.drop.snapshots import Snapshots
+from grainfall.drop.summary import Clock, make_summary, print_summary
+from grainfall.materials import check_scene
+from grainfall.projectile_mesh import outline
+
+STATE, PARAMETERS, BED = "state.yade.gz", "parameters.json", "bed.h5"
+#: How long the projectile has to be slow to count as at rest [s].
+REST_DURATION = 5e-3
+#: Wall time between two looks at the running simulation [s].
+POLL = 0.02
+
+
+def drop_test(**given: Any) -> dict[str, Any]:
+    """Drop a projectile on a bed of sand and return the summary that is also written to the folder.
+
+    Parameters
+    ----------
+    **given
+        Any option of ``scenarios/drop_test.py`` with underscores for dashes, such as
+        ``preset='m70-full'``, ``grain_diameter=0.008`` [m], ``moisture=0.023``, ``output='results/a'``.
+
+    Returns
+    -------
+    dict
+        Contents of ``summary.json``; units are in the keys.
+
+    Raises
+    ------
+    OptionError
+        A parameter is unknown or out of range; nothing has been run or written then.
+    """
+    folder, parameters = _resolve(given)
+    run = DropRun(folder, parameters, resumed=bool(given.get("resume")))
+    return run.execute()
+
+
+def _resolve(given: Mapping[str, Any]) -> tuple[Path, dict[str, Any]]:
+    """Results folder and all parameters, those of the interrupted run where one is resumed."""
+    resume = given.get("resume")
+    if resume:
+        folder = Path(resume)
+        if not (folder / STATE).exists():
+            raise OptionError(
+                f"--resume = {str(folder)!r}: must be a results folder with a {STATE}"
+            )
+        saved = json.loads((folder / PARAMETERS).read_text())
+        changed = [n for n in given if n in TABLE.by_name and not TABLE.by_name[n].runtime]
+        if changed:
+            raise OptionError(
+                f"{TABLE.by_name[changed[0]].flag} cannot be changed by a resumed run"
+            )
+        checked = TABLE.resolve({**saved, **given, "output": str(folder)})
+        return folder, checked
+    parameters = TABLE.resolve(given, [lambda values: QUICK if values["quick"] else {}])
+    if parameters["drop_height"] is None and parameters["impact_speed"] is None:
+        raise OptionError("--drop-height or --impact-speed: one of the two must be given")
+    folder = Path(parameters["output"] or Path("results") / parameters["preset"])
+    return folder, parameters
+
+
+class DropRun:
+    """One run and its results folder."""
+
+    def __init__(self, folder: Path, parameters: dict[str, Any], resumed: bool) -> None:
+        self.folder = folder
+        self.parameters = parameters
+        self.resumed = resumed
+        self.clock = Clock()
+        self.bed_was_cached = False
+        self.interrupted = False
+
+    def execute(self) -> dict[str, Any]:
+        """Prepare or load, run until rest, the end or Ctrl-C, and sum up."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        bed = self._load() if self.resumed else self._prepare()
+        self.trace = traces.Trace(self.folder, projectile_id(bed), bed.surface)
+        if self.resumed:
+            self.trace.load(until=O.time)
+        self.snapshots = self._snapshots(bed)
+        traces.set_current(self.trace)
+        O.timingEnabled = True
+        yade.timing.reset()
+        try:
+            self._run()
+        finally:
+            traces.set_current(None)
+            self._checkpoint()
+        return self._finish(bed)
+
+    def _prepare(self) -> Bed:
+        """Bed from the cache or newly settled, scene built; the parameters are written first."""
+        text = json.dumps(self.parameters, indent=1)
+        progress = Progress("bed", self.parameters["quiet"])
+        bed, self.bed_was_cached = obtain_bed(
+            bed_spec(self.parameters),
+            self.parameters["bed_cache"],
+            self.parameters["bed"],
+            lambda stage, fraction: progress.update(fraction, stage),
+        )
+        progress.close()
+        for old in (*self.folder.glob("snapshots/*.npz"), *self.folder.glob("vtk/*")):
+            old.unlink()
+        (self.folder / PARAMETERS).write_text(text)
+        save_bed(bed, self.folder / BED)
+        self.clock.lap("bed preparation")
+        build_scene(self.parameters, bed)
+        for warning in check_scene():
+            print(f"warning: {warning}", file=sys.stderr)
+        self.clock.lap("scene")
+        return bed
+
+    def _load(self) -> Bed:
+        """Scene and bed of the interrupted run."""
+        bed = load_bed(self.folder / BED)
+        O.load(str(self.folder / STATE), quiet=True)
+        return bed
+
+    def _snapshots(self, bed: Bed) -> Snapshots:
+        p = self.parameters
+        shape = O.bodies[projectile_id(bed)].shape
+        box = (p["box_length"], p["box_width"], bed.surface)
+        return Snapshots(self.folder, len(bed.radii), outline(shape), box)
+
+    def _run(self) -> None:
+        """Run in chunks until the end; Ctrl-C stops between two of them."""
+        p = self.parameters
+        progress = Progress("drop", p["quiet"])
+        next_snapshot = O.time if p["vtk_interval"] else float("inf")
+        next_checkpoint = O.time + p["checkpoint_interval"]
+        try:
+            while O.time < p["duration"] and not self._at_rest():
+                if O.time >= next_snapshot:
+                    self.snapshots.write(self._touch())
+                    next_snapshot += p["vtk_interval"]
+                if O.time >= next_checkpoint:
+                    self._checkpoint()
+                    next_checkpoint += p["checkpoint_interval"]
+                goal = min(
+                    p["duration"], next_snapshot, next_checkpoint, O.time + REST_DURATION / 5
+                )
+                self._advance(max(1, round((goal - O.time) / O.dt)))
+                progress.update(O.time / p["duration"], self._state())
+        except KeyboardInterrupt:
+            O.pause()
+            self.interrupted = True
+        else:
+            progress.update(1.0, self._state())
+            if p["vtk_interval"]:
+                self.snapshots.write(self._touch())
+        progress.close()
+
+    def _advance(self, steps: int) -> None:
+        """Run so many steps; polled rather than waited for, so that Ctrl-C gets through."""
+        O.run(steps)
+        while O.running:
+            time.sleep(POLL)
+        if self.trace.rows and not np.isfinite(self.trace.rows[-1][1]):
+            raise FloatingPointError(
+                "the projectile's position is not a number: reduce --dt-safety or --time-step"
+            )
+
+    def _touch(self) -> float | None:
+        trace = self.trace.arrays()
+        return touch_time(trace) if len(trace["time_s"]) else None
+
+    def _at_rest(self) -> bool:
+        """Has the projectile, once in contact, been slow for long enough?"""
+        rows = self.trace.rows
+        recent = [row for row in rows[-200:] if row[0] >= O.time - REST_DURATION]
+        touched = bool(rows) and rows[-1][8] > 0
+        slow = all(abs(row[2]) < self.parameters["rest_speed"] for row in recent)
+        return touched and len(recent) > 1 and slow and O.time > REST_DURATION
+
+    def _state(self) -> str:
+        if not self.trace.rows:
+            return ""
+        row = self.trace.rows[-1]
+        return f"{O.time * 1e3:.1f} ms, {row[2]:.2f} m/s, {row[1] * 1e3:.1f} mm deep"
+
+    def _checkpoint(self) -> None:
+        """Save trace and scene; the old state is replaced only once the new one is whole."""
+        self.trace.flush()
+        partial = self.folder / f"partial-{STATE}"
+        O.save(str(partial), quiet=True)
+        os.replace(partial, self.folder / STATE)
+
+    def _finish(self, bed: Bed) -> dict[str, Any]:
+        """Summary, HDF5 file, pictures and page."""
+        self.clock.lap("drop")
+        summary = make_summary(self, bed)
+        (self.folder / "summary.json").write_text(json.dumps(summary, indent=1) + "\n")
+        self.trace.write_hdf5()
+        if not self.parameters["no_plots"]:
+            from grainfall.report import write_report
+
+            write_report(self.folder)
+        if not self.parameters["quiet"]:
+            print_summary(summary, self.folder)
+        return summary

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The scene of a drop: bed, projectile just above it, engines."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import yade.wrapper
+from yade import O, Quaternion
+
+from grainfall.bed_scene import WALL_COUNT, add_bed, restore_contacts
+from grainfall.beds import Bed, BedSpec
+from grainfall.contacts import Sand, contact_loop, rayleigh_step
+from grainfall.drop.parameters import GRAVITY
+from grainfall.projectiles import make_projectile, projectile
+
+#: The projectile starts this many mean grain diameters above the highest grain.
+CLEARANCE_DIAMETERS = 0.5
+
+
+def sand_of(parameters: Mapping[str, Any]) -> Sand:
+    """Contact parameters of the sand."""
+    p = parameters
+    return Sand(
+        density=p["grain_density"],
+        young=p["young"],
+        poisson=p["poisson"],
+        restitution=p["restitution"],
+        friction=p["friction"],
+        moisture=p["moisture"],
+        moisture_factor=p["moisture_factor"],
+        reference_diameter=p["reference_diameter"],
+        normal_law=p["normal_law"],
+        tangential_law=p["tangential_law"],
+    )
+
+
+def bed_spec(parameters: Mapping[str, Any]) -> BedSpec:
+    """The bed that these parameters ask for."""
+    p = parameters
+    return BedSpec(
+        length=p["box_length"],
+        width=p["box_width"],
+        depth=p["bed_depth"],
+        grains=p["grains"],
+        diameter=p["grain_diameter"],
+        spread=p["grain_spread"],
+        solid_fraction=p["solid_fraction"],
+        wall_friction=p["wall_friction"],
+        seed=p["seed"],
+        sand=sand_of(p),
+    )
+
+
+def projectile_id(bed: Bed) -> int:
+    """Body number of the projectile: grains first, then the walls, then it."""
+    return len(bed.radii) + WALL_COUNT
+
+
+def impact_speed(parameters: Mapping[str, Any]) -> float:
+    """Speed on reaching the surface [m/s]: as given, or that of free fall from the drop height."""
+    if parameters["impact_speed"] is not None:
+        return parameters["impact_speed"]
+    return math.sqrt(2 * GRAVITY * (parameters["drop_height"] or 0.0))
+
+
+def time_step(parameters: Mapping[str, Any], bed: Bed) -> float:
+    """Time step [s]: as given, or a fraction of the smallest grain's Rayleigh step."""
+    if parameters["time_step"] is not None:
+        return parameters["time_step"]
+    sand = sand_of(parameters)
+    rayleigh = rayleigh_step(float(bed.radii.min()), sand.density, sand.young, sand.poisson)
+    return parameters["dt_safety"] * rayleigh
+
+
+def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
+    """Fill an empty scene: bodies, engines, step. Labels: see `_engines`."""
+    p = parameters
+    sand = sand_of(p)
+    O.reset()
+    wall = sand.material("wall", friction=yade.wrapper.ConstantFriction(mu=p["wall_friction"]))
+    add_bed(bed, sand.material("sand"), wall)
+    O.bodies.append(_projectile(p, bed))
+    O.engines = _engines(p, sand, bed)
+    O.dt = time_step(p, bed)
+    O.trackEnergy = not p["no_energy"]
+    restore_contacts(bed)
+
+
+def _projectile(p: Mapping[str, Any], bed: Bed) -> Any:
+    """The projectile above the bed, at the speed it has fallen to there."""
+    material = yade.wrapper.GrainMat(
+        young=p["projectile_young"],
+        poisson=p["projectile_poisson"],
+        restitution=p["projectile_restitution"],
+        friction=p["projectile_friction"],
+        label="projectile",
+    )
+    O.materials.append(material)
+    height = (
+        float((bed.centres[:, 2] + bed.radii).max()) + CLEARANCE_DIAMETERS * p["grain_diameter"]
+    )
+    fall = height - bed.surface
+    speed = math.sqrt(max(impact_speed(p) ** 2 - 2 * GRAVITY * fall, 0.0))
+    tilt = math.radians(p["tilt_degrees"])
+    axis = (-math.sin(tilt), 0, -math.cos(tilt))
+    return make_projectile(
+        replace(projectile(p["profile"]), mass=p["mass"]),
+        nose_at=(p["offset_x"], p["offset_y"], height),
+        velocity=(0, 0, -speed),
+        angular_velocity=[p["spin"] * component for component in axis],
+        orientation=Quaternion((0, 1, 0), tilt),
+        material=material,
+    )
+
+
+def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
+    """Engines in YADE's order; the recorder stands where forces and positions belong to one moment."""
+    w = yade.wrapper
+    verlet = 0.05 * float(bed.radii.min())
+    bounds = [w.Bo1_Sphere_Aabb(), w.Bo1_Wall_Aabb(), w.Bo1_SolidOfRevolution_Aabb()]
+    contact = [w.Ig2_SolidOfRevolution_Sphere_ScGeom(), w.Ig2_Wall_SolidOfRevolution_ScGeom()]
+    pair = w.GrainPair(
+        first="sand",
+        second="projectile",
+        friction=p["projectile_friction"],
+        restitution=p["projectile_restitution"],
+    )
+    every = max(1, round(p["record_interval"] / time_step(p, bed)))
+    command = "import grainfall.drop.trace; grainfall.drop.trace.record()"
+    return [
+        w.ForceResetter(label="force_resetter"),
+        w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
+        contact_loop(sand, [pair], contact),
+        w.ProjectileLoad(body=projectile_id(bed), label="projectile_load"),
+        w.PyRunner(command=command, iterPeriod=every, label="recorder"),
+        w.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=0, label="integrator"),
+    ]

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a run reports: results, effects, price, how coarse the sand was."""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import yade
+from yade import O
+
+from grainfall.beds import Bed
+from grainfall.drop.results import drop_results, energy_results
+from grainfall.report.html_page import number, split_unit
+
+if TYPE_CHECKING:
+    from grainfall.drop.run import DropRun
+
+#: Results printed at the end of a run.
+PRINTED = (
+    "particles",
+    "impact_speed_m_per_s",
+    "depth_m",
+    "peak_force_camera_N",
+    "peak_force_N",
+    "stop_time_s",
+    "grain_enlargement",
+    "energy_residual_relative",
+    "simulated_seconds",
+    "wall_seconds",
+)
+
+
+class Clock:
+    """Wall time by phase."""
+
+    def __init__(self) -> None:
+        self.started = self._lap = time.monotonic()
+        self.phases: dict[str, float] = {}
+
+    def lap(self, phase: str) -> None:
+        """Book the time since the last lap to this phase."""
+        now = time.monotonic()
+        self.phases[phase] = self.phases.get(phase, 0.0) + now - self._lap
+        self._lap = now
+
+    @property
+    def total(self) -> float:
+        """Wall time since the start [s]."""
+        return time.monotonic() - self.started
+
+
+def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
+    """Contents of ``summary.json``: see README for the keys; each states its unit."""
+    p = run.parameters
+    trace = run.trace.arrays()
+    summary: dict[str, Any] = {
+        "preset": p["preset"],
+        "seed": p["seed"],
+        "particles": len(bed.radii),
+        "steps": O.iter,
+        "time_step_s": O.dt,
+        "simulated_seconds": O.time,
+        "wall_seconds": run.clock.total,
+        "interrupted": run.interrupted,
+        "threads": O.numThreads,
+    }
+    if len(trace["time_s"]) > 1:
+        results = drop_results(trace, p["mass"], p["rest_speed"])
+        summary.update(results)
+        summary.update(
+            energy_results(run.trace.energy_arrays(), p["mass"], results["impact_speed_m_per_s"])
+        )
+    summary.update(coarsening(p, bed))
+    summary["largest_overlap_over_radius"] = run.snapshots.largest_relative_overlap
+    summary["effects"] = dict(yade.contact_law.effects)
+    summary["price"] = engine_seconds(run)
+    summary["bed"] = {**bed.report, "from_cache": run.bed_was_cached}
+    summary["parameters"] = dict(p)
+    summary["notes"] = notes(summary, p)
+    return summary
+
+
+def engine_seconds(run: DropRun) -> dict[str, float]:
+    """Wall time by engine [s], and of what happened outside them."""
+    price = {
+        engine.label or engine.__class__.__name__: engine.execTime * 1e-9 for engine in O.engines
+    }
+    price.update(run.clock.phases)
+    price["drop"] = max(0.0, price.pop("drop", 0.0) - sum(e.execTime for e in O.engines) * 1e-9)
+    price["checkpoints, snapshots, waiting"] = price.pop("drop")
+    return price
+
+
+def coarsening(p: dict[str, Any], bed: Bed) -> dict[str, Any]:
+    """By how much the grains were enlarged, and how many the real ones would be."""
+    real = p["reference_diameter"]
+    if not real:
+        return {"grain_enlargement": 1.0, "real_grains": len(bed.radii)}
+    volume = float(np.sum(4 / 3 * math.pi * bed.radii**3))
+    return {
+        "grain_enlargement": p["grain_diameter"] / real,
+        "real_grains": round(volume / (math.pi / 6 * real**3)),
+    }
+
+
+def notes(summary: dict[str, Any], p: dict[str, Any]) -> list[str]:
+    """What a reader must know to use the numbers."""
+    lines = []
+    if summary["grain_enlargement"] > 1:
+        lines.append(
+            f"Grains are {summary['grain_enlargement']:.1f} times larger than the real ones: "
+            f"{summary['particles']} stand for {summary['real_grains']:.3g}. Friction is read at the load "
+            "divided by the square of that."
+        )
+    overlap = summary["largest_overlap_over_radius"]
+    if overlap > 0.01:
+        lines.append(
+            f"The largest overlap seen is {100 * overlap:.1f} % of a grain's radius: the grains are soft "
+            "(--young); below 1 % stiffness hardly matters."
+        )
+    if p["moisture"] > 0 and not p["moisture_factor"]:
+        lines.append(
+            "Water is present but nothing in this run depends on it: give --moisture-factor "
+            "(liquid bridges are not part of this version)."
+        )
+    if summary["interrupted"]:
+        lines.append("The run was interrupted: continue with --resume FOLDER.")
+    elif summary.get("stop_time_s") is None:
+        lines.append("The projectile was still moving at the end: depth and times are not final.")
+    return lines
+
+
+def print_summary(summary: dict[str, Any], folder: Path) -> None:
+    """Print the main results as a table."""
+    print(f"\n{summary['preset']}: results in {folder}")
+    for key in PRINTED:
+        if key in summary:
+            name, unit = split_unit(key)
+            print(f"  {name:28s} {number(summary[key])} {unit}".rstrip())
+    print("  effects                      " + "; ".join(summary["effects"]))
+    dearest = sorted(summary["price"].items(), key=lambda item: -item[1])[:4]
+    print("  price                        " + ", ".join(f"{k} {v:.1f} s" for k, v in dearest))
+    for note in summary["notes"]:
+        print(f"  note: {note}")

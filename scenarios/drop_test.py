@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Drop a projectile on sand: yade -j2 -n -x scenarios/drop_test.py --preset m70-full
+
+Under yade-batch the columns of the parameter table are the options, with underscores for dashes:
+
+    yade-batch table.txt scenarios/drop_test.py
+"""
+
+import os
+import sys
+
+from yade import O, utils
+
+import grainfall  # noqa: F401  registers the classes
+from grainfall.drop import OptionError, drop_test
+from grainfall.drop.parameters import TABLE
+
+EPILOG = (
+    "Lengths in m, masses in kg, times in s, stresses in Pa, angles in degrees.\n"
+    "Results: summary.json, trace.csv, trace.h5, plots/, bed_forces.png, vtk/, summary.html."
+)
+
+
+def batch_row() -> dict[str, object]:
+    """The row of the batch's table that this process runs; each row gets its own folder."""
+    from yade import params
+
+    names = {name: None for name in TABLE.by_name}
+    utils.readParamsFromTable(noTableOk=False, **names)
+    row = {name: getattr(params.table, name) for name in names}
+    given = {name: value for name, value in row.items() if value is not None}
+    given.setdefault("output", os.path.join("results", O.tags["id"].replace("/", "-")))
+    return given
+
+
+def main() -> int:
+    """Read options, run, report; the exit code says how it went."""
+    in_batch = "PARAM_TABLE" in os.environ
+    try:
+        parser = TABLE.parser(__doc__.splitlines()[0], EPILOG)
+        drop_test(**(batch_row() if in_batch else vars(parser.parse_args(sys.argv[1:]))))
+    except (OptionError, ValueError) as error:
+        print(f"drop_test.py: error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+exit_code = main()
+if exit_code:
+    sys.stdout.flush()
+    os._exit(exit_code)
