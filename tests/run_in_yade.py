@@ -46,7 +46,11 @@ def run_yade(yade_options: list[str], pytest_arguments: list[str]) -> int:
         "--",
         *pytest_arguments,
     ]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    # Threads of small scenes mostly wait for each other; spinning would starve them on a shared core.
+    environment = {"OMP_WAIT_POLICY": "passive", **os.environ}
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment
+    )
     in_banner = True
     for line in process.stdout:
         in_banner = in_banner and BANNER.match(line) is not None

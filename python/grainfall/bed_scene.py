@@ -2,6 +2,7 @@
 """A bed of sand in YADE: its bodies, its contacts, and reading them back."""
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,9 @@ def restore_contacts(bed: Bed) -> None:
     for (first, second), shear in zip(bed.contacts.tolist(), bed.shear.tolist()):
         contact = utils.createInteraction(first, second)
         contact.phys.shearElastic = Vector3(shear)
+        # Without the stiffness that belongs to it, the law would take the spring's energy for new.
+        overlap = max(contact.geom.penetrationDepth, 0.0)
+        contact.phys.ks = contact.phys.shearCoefficient * math.sqrt(overlap)
 
 
 def grain_centres(count: int) -> np.ndarray:
@@ -59,13 +63,12 @@ def grain_centres(count: int) -> np.ndarray:
     )
 
 
-def bed_contacts(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Contacts between grains and with walls: pairs, shape (c, 2), and elastic shear, shape (c, 3) [N]."""
+def read_contacts(bed: Bed) -> None:
+    """Copy the contacts between grains and with walls from the scene into the bed."""
     pairs, shear = [], []
     for contact in O.interactions:
-        if contact.isReal and max(contact.id1, contact.id2) < count + WALL_COUNT:
+        if contact.isReal and max(contact.id1, contact.id2) < len(bed.radii) + WALL_COUNT:
             pairs.append((contact.id1, contact.id2))
             shear.append(contact.phys.shearElastic)
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2), np.array(shear, dtype=float).reshape(
-        -1, 3
-    )
+    bed.contacts = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    bed.shear = np.array(shear, dtype=float).reshape(-1, 3)

@@ -24,7 +24,7 @@ import numpy as np
 import yade.wrapper
 from yade import O, Vector3, utils
 
-from grainfall.bed_scene import add_bed, bed_contacts, grain_centres
+from grainfall.bed_scene import add_bed, grain_centres, read_contacts
 from grainfall.beds import Bed, BedSpec, Progress
 from grainfall.contacts import contact_loop, rayleigh_step
 from grainfall.packings import Box, grain_radii, random_packing, solid_fraction_in
@@ -54,7 +54,7 @@ def prepare_bed(spec: BedSpec, progress: Progress) -> Bed:
     box, radii = _overfilled(spec, rng)
     progress("packing", 0.0)
     centres = random_packing(box, radii, rng)
-    bed = Bed(spec, centres, radii, np.empty((0, 2), dtype=np.int64), np.empty((0, 3)))
+    bed = Bed(spec, centres, radii)
     moduli = stiffening_stages(spec)
     steps = 0
     for stage, young in enumerate(moduli):
@@ -64,7 +64,7 @@ def prepare_bed(spec: BedSpec, progress: Progress) -> Bed:
         steps += _come_to_rest(bed, stage > 0, young, slack, partial(progress, kind))
         if stage == 0:
             _level(bed)
-    bed.contacts, bed.shear = bed_contacts(len(bed.radii))
+    read_contacts(bed)
     bed.report = {
         **_measure(bed),
         "preparation_steps": steps,
@@ -106,18 +106,17 @@ def _come_to_rest(
         bed.spec.sand, young=young, restitution=max(bed.spec.sand.restitution, SETTLING_RESTITUTION)
     )
     O.reset()
-    add_bed(
-        bed,
-        sand.material("sand"),
-        sand.material("wall", friction=_constant(bed.spec.wall_friction)),
-    )
+    wall_friction = bed.spec.wall_friction
+    wall = sand.material("wall", friction=wall_friction, referenceRadius=0.0)
+    add_bed(bed, sand.material("sand"), wall)
+    pair = yade.wrapper.GrainPair("sand", "wall", friction=wall_friction)
     O.engines = [
         yade.wrapper.ForceResetter(),
         yade.wrapper.InsertionSortCollider(
             [yade.wrapper.Bo1_Sphere_Aabb(), yade.wrapper.Bo1_Wall_Aabb()],
             verletDist=0.1 * float(bed.radii.min()),
         ),
-        contact_loop(sand, [], []),
+        contact_loop(sand, [pair], []),
         yade.wrapper.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=DAMPING),
     ]
     O.dt = STEP_FRACTION * rayleigh_step(bed.radii.min(), sand.density, young, sand.poisson)
@@ -141,10 +140,6 @@ def _stop_all() -> None:
     for body in O.bodies:
         body.state.vel = still
         body.state.angVel = still
-
-
-def _constant(coefficient: float):
-    return yade.wrapper.ConstantFriction(mu=coefficient)
 
 
 def kinetic_ratio(bed: Bed) -> float:

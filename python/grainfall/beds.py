@@ -84,8 +84,8 @@ class Bed:
     spec: BedSpec
     centres: np.ndarray
     radii: np.ndarray
-    contacts: np.ndarray
-    shear: np.ndarray
+    contacts: np.ndarray = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
+    shear: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
     report: dict[str, Any] = field(default_factory=dict)
 
     @property
@@ -140,12 +140,20 @@ def cache_folder(cache: Path | str = "") -> Path:
     return Path(root).expanduser() / "grainfall" / "beds"
 
 
+_ARRAYS = {
+    "centres": "m",
+    "radii": "m",
+    "contacts": "-",
+    "shear": "N",
+}
+
+
 def save_bed(bed: Bed, path: Path) -> None:
     """Write a bed to an HDF5 file, all at once: a reader never meets half a file."""
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_suffix(f".{os.getpid()}.partial")
     with h5py.File(partial, "w") as file:
-        for name, unit in (("centres", "m"), ("radii", "m"), ("contacts", "-"), ("shear", "N")):
+        for name, unit in _ARRAYS.items():
             file.create_dataset(name, data=getattr(bed, name), compression="gzip")
             file[name].attrs["unit"] = unit
         file.attrs["spec"] = json.dumps(asdict(bed.spec))
@@ -161,5 +169,5 @@ def load_bed(path: Path) -> Bed:
             raise ValueError(f"{path} is not a bed of this version of Grainfall; remove it")
         spec = json.loads(file.attrs["spec"])
         spec["sand"] = Sand(**spec["sand"])
-        arrays = {name: file[name][:] for name in ("centres", "radii", "contacts", "shear")}
+        arrays = {name: file[name][:] for name in _ARRAYS}
         return Bed(BedSpec(**spec), **arrays, report=json.loads(file.attrs["report"]))

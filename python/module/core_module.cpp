@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Extension module grainfall._core. Loading it announces the classes to YADE's factory; register_classes() makes them
-// known to the running YADE. Both are done by importing the package, which first checks that this YADE is the one
-// that the module was compiled for. Registration is not part of the module's initialisation because an error raised
-// there reaches Python without its message.
+// Extension module grainfall._core. Loading it announces the classes to YADE's factory; register_classes()
+// makes them known to the running YADE. Both are done by importing the package, which first checks that this
+// YADE is the one that the module was compiled for. Registration is not part of the module's initialisation
+// because an error raised there reaches Python without its message.
 #include "register_classes.hpp"
 
 #include <lib/base/Math.hpp>
@@ -19,6 +19,7 @@ boost::python::list register_classes() {
 } // namespace
 
 BOOST_PYTHON_MODULE(_core) {
-    boost::python::def("register_classes", &register_classes,
-                       "Register in the running YADE the classes that are not there yet; returns their names.");
+    boost::python::def(
+        "register_classes", &register_classes,
+        "Register in the running YADE the classes that are not there yet; returns their names.");
 }

@@ -15,9 +15,11 @@ using RegisterClasses = void (yade::Omega::*)(const std::vector<std::string>&);
 
 RegisterClasses register_classes();
 
-// YADE registers its own classes through a private member function, because it never meant classes to arrive after
-// the start. Arguments of an explicit instantiation are exempt from access control: that is the door taken here.
-template <RegisterClasses function> struct Door {
+// YADE registers its own classes through a private member function, because it never meant classes to arrive
+// after the start. Arguments of an explicit instantiation are exempt from access control: that is the door
+// taken here.
+template <RegisterClasses function>
+struct Door {
     friend RegisterClasses register_classes() { return function; }
 };
 template struct Door<&yade::Omega::buildDynlibDatabase>;
@@ -29,7 +31,8 @@ std::vector<std::string> register_new_classes() {
     const auto& known = omega.getDynlibsDescriptor();
     std::vector<std::string> names;
     for (const std::string& name : yade::ClassFactory::instance().pluginClasses)
-        if (known.count(name) == 0) names.push_back(name);
+        if (known.count(name) == 0)
+            names.push_back(name);
 
     (omega.*register_classes())(names);
 

@@ -7,8 +7,8 @@
 
 namespace grainfall {
 
-/// Registers every class announced by YADE_PLUGIN since YADE started and not registered yet; returns their names.
-/// Needs the interpreter lock. A class that cannot be made or shown to Python is an error naming it.
+/// Registers every class announced by YADE_PLUGIN since YADE started and not registered yet; returns their
+/// names. Needs the interpreter lock. A class that cannot be made or shown to Python is an error naming it.
 std::vector<std::string> register_new_classes();
 
 } // namespace grainfall

@@ -31,7 +31,10 @@ SENTINELS: dict[str, tuple] = {
     "Vector3i": (Vector3i(4, -5, 6), Vector3i(-7, 8, -9)),
     "Quaternionr": (Quaternion(0.5, 0.5, 0.5, 0.5), Quaternion(0, 1, 0, 0)),
     "Matrix3r": (Matrix3(1, 2, 3, 4, 5, 7, 8, 9, 11), Matrix3(2, 0, 0, 1, 3, 0, 0, 1, 5)),
-    "Se3r": ((Vector3(1, 2, 3), Quaternion(0, 0, 1, 0)), (Vector3(4, 5, 6), Quaternion(1, 0, 0, 0))),
+    "Se3r": (
+        (Vector3(1, 2, 3), Quaternion(0, 0, 1, 0)),
+        (Vector3(4, 5, 6), Quaternion(1, 0, 0, 0)),
+    ),
     "vector<int>": ([3, 1, 4], [15, 9]),
     "vector<string>": (["one", "two"], ["three"]),
     "vector<Vector3r>": ([Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 2, 0)],) * 2,
@@ -63,14 +66,17 @@ def measured() -> dict[tuple[str, str], tuple[int, int]]:
     with MEASURED.open(encoding="utf-8") as file:
         rows = csv.DictReader(line for line in file if not line.startswith("#"))
         return {
-            (row["class"], row["member"]): (int(row["offset_bytes"]), int(row["size_bytes"])) for row in rows
+            (row["class"], row["member"]): (int(row["offset_bytes"]), int(row["size_bytes"]))
+            for row in rows
         }
 
 
 def reachable(class_name: str, member: str) -> bool:
     """Is this member an attribute in YADE's Python?"""
     cls = getattr(yade.wrapper, class_name, None)
-    return (class_name, member) not in measured() and isinstance(getattr(cls, member, None), property)
+    return (class_name, member) not in measured() and isinstance(
+        getattr(cls, member, None), property
+    )
 
 
 def members(declarations: Declarations) -> list[tuple[str, str]]:
@@ -106,7 +112,9 @@ def python_to_memory(class_name: str, name: str, member: Member) -> str:
         shown = getattr(instance, name)
         if not same(as_python_shows(class_name, name, seen), shown):
             return f"{class_name}.{name} is {shown} in Python, {seen} at byte {member.offset}"
-        if (class_name, name) not in COMPUTED and not same(shown, as_python_shows(class_name, name, value)):
+        if (class_name, name) not in COMPUTED and not same(
+            shown, as_python_shows(class_name, name, value)
+        ):
             return f"{class_name}.{name} was set to {value} and is {shown}"
     return ""
 
@@ -118,7 +126,9 @@ def memory_to_python(class_name: str, name: str, member: Member) -> str:
         abi_probe.write(abi_probe.address(instance) + member.offset, member.type, value)
         shown = getattr(instance, name)
         if not same(as_python_shows(class_name, name, value), shown):
-            return f"{class_name}.{name}: wrote {value} at byte {member.offset}, Python shows {shown}"
+            return (
+                f"{class_name}.{name}: wrote {value} at byte {member.offset}, Python shows {shown}"
+            )
     return ""
 
 

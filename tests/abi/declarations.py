@@ -22,7 +22,9 @@ FLAGS = [
 ]
 HEADERS = Path(abi_build.SOURCE_DIR) / "yade-headers"
 CLASS = re.compile(r"^(template <[^\n]*>\s)?(?:class|struct) (\w+)\s*(?::[^;{]*)?\{", re.MULTILINE)
-OWN_NAMESPACE = re.compile(r"^namespace (?:yade::)?abi \{.*?^\} // namespace (?:yade::)?abi$", re.M | re.S)
+OWN_NAMESPACE = re.compile(
+    r"^namespace (?:yade::)?abi \{.*?^\} // namespace (?:yade::)?abi$", re.M | re.S
+)
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,9 @@ def declared_names(headers: Path) -> tuple[set[str], set[str]]:
     classes: set[str] = set()
     templates: set[str] = set()
     for header in headers.rglob("*.hpp"):
-        for template, name in CLASS.findall(OWN_NAMESPACE.sub("", header.read_text(encoding="utf-8"))):
+        for template, name in CLASS.findall(
+            OWN_NAMESPACE.sub("", header.read_text(encoding="utf-8"))
+        ):
             (templates if template else classes).add(name)
     return classes, templates - classes
 
@@ -69,7 +73,9 @@ def compile_declarations(headers: Path = HEADERS) -> Declarations:
     uses = [f"{name}* use_{name};" for name in sorted(classes)]
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / "declarations.cpp"
-        source.write_text("\n".join([*includes, "using namespace yade;", *uses, ""]), encoding="utf-8")
+        source.write_text(
+            "\n".join([*includes, "using namespace yade;", *uses, ""]), encoding="utf-8"
+        )
         subprocess.run(
             [abi_build.COMPILER, *FLAGS, "-w", "-g", "-O0", "-femit-class-debug-always"]
             + ["-fdump-lang-class=classes.txt", f"-I{headers}", "-c", source.name],
@@ -80,9 +86,13 @@ def compile_declarations(headers: Path = HEADERS) -> Declarations:
             described = _read_debug_information(ELFFile(object_file).get_dwarf_info())
         tables = _read_class_dump((Path(folder) / "classes.txt").read_text(encoding="utf-8"))
     wanted = {
-        name: cls for name, cls in described.items() if name in classes or name.split("<")[0] in templates
+        name: cls
+        for name, cls in described.items()
+        if name in classes or name.split("<")[0] in templates
     }
-    return Declarations(wanted, templates, {name: tables[name] for name in classes if name in tables})
+    return Declarations(
+        wanted, templates, {name: tables[name] for name in classes if name in tables}
+    )
 
 
 def _name(die) -> str:
@@ -99,7 +109,10 @@ def _read_debug_information(information) -> dict[str, Class]:
                 continue
             cls = Class(die.attributes["DW_AT_byte_size"].value)
             for child in die.iter_children():
-                if child.tag == "DW_TAG_member" and "DW_AT_data_member_location" in child.attributes:
+                if (
+                    child.tag == "DW_TAG_member"
+                    and "DW_AT_data_member_location" in child.attributes
+                ):
                     place = child.attributes["DW_AT_data_member_location"].value
                     if not _name(child).startswith("_vptr"):
                         cls.members[_name(child)] = Member(place, *_size_and_type(child))
@@ -144,7 +157,11 @@ def _plain_type(name: str) -> str:
         return "shared_ptr"
     if name.startswith("vector<"):
         inside = name[len("vector<") :]
-        for text, element in (("int", "int"), ("std::__cxx11::basic_string", "string"), ("Eigen::Matrix<double, 3, 1", "Vector3r")):
+        for text, element in (
+            ("int", "int"),
+            ("std::__cxx11::basic_string", "string"),
+            ("Eigen::Matrix<double, 3, 1", "Vector3r"),
+        ):
             if inside.startswith(text):
                 return f"vector<{element}>"
         return "vector"

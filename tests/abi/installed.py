@@ -95,7 +95,9 @@ def _same_slot(installed: str, declared: str) -> bool:
 
 
 def _demangle(words: list[str]) -> list[str]:
-    plain = subprocess.run(["c++filt"], input="\n".join(words), capture_output=True, text=True, check=True)
+    plain = subprocess.run(
+        ["c++filt"], input="\n".join(words), capture_output=True, text=True, check=True
+    )
     return [
         f"thunk {m.group(1)}" if (m := re.match(r"_ZThn(\d+)_", word)) else text
         for word, text in zip(words, plain.stdout.splitlines(), strict=True)

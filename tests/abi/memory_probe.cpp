@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Reads and writes members of live YADE objects by address and type, and calls virtual functions through the tables
-// that our declarations describe.
+// Reads and writes members of live YADE objects by address and type, and calls virtual functions through the
+// tables that our declarations describe.
 #include "../../python/module/register_classes.hpp"
 
 #include <lib/base/Math.hpp>
@@ -26,7 +26,8 @@ struct Access {
     std::function<void(Address, const py::object&)> write;
 };
 
-template <class T> Access access() {
+template <class T>
+Access access() {
     return {[](Address at) { return py::object(*reinterpret_cast<const T*>(at)); },
             [](Address at, const py::object& value) { *reinterpret_cast<T*>(at) = py::extract<T>(value)(); }};
 }
@@ -54,10 +55,18 @@ const std::map<std::string, Access>& types() {
     return table;
 }
 
-py::object read_member(Address at, const std::string& type) { return types().at(type).read(at); }
-void write_member(Address at, const std::string& type, const py::object& value) { types().at(type).write(at, value); }
-Address pointer(Address at) { return *reinterpret_cast<const Address*>(at); }
-Address address(const Serializable& object) { return reinterpret_cast<Address>(&object); }
+py::object read_member(Address at, const std::string& type) {
+    return types().at(type).read(at);
+}
+void write_member(Address at, const std::string& type, const py::object& value) {
+    types().at(type).write(at, value);
+}
+Address pointer(Address at) {
+    return *reinterpret_cast<const Address*>(at);
+}
+Address address(const Serializable& object) {
+    return reinterpret_cast<Address>(&object);
+}
 
 /// Results of virtual functions, each reached through the slot that our headers give it.
 py::dict call_virtual_functions(Serializable& object) {
@@ -72,7 +81,8 @@ py::dict call_virtual_functions(Serializable& object) {
     }
     if (const auto* material = dynamic_cast<const Material*>(&object))
         results["newAssocState"] = material->newAssocState()->getClassName();
-    if (auto* engine = dynamic_cast<Engine*>(&object)) results["isActivated"] = engine->isActivated();
+    if (auto* engine = dynamic_cast<Engine*>(&object))
+        results["isActivated"] = engine->isActivated();
     return results;
 }
 

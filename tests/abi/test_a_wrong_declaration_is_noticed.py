@@ -12,7 +12,10 @@ from test_every_declaration_is_covered import uncovered
 
 MISTAKES = {
     "core/State.hpp": ("    Vector3r vel;", "    Real intruder;\n    Vector3r vel;"),
-    "core/Cell.hpp": ("    Vector3r _cos;\n    Vector3r _refSize;", "    Vector3r _refSize;\n    Vector3r _cos;"),
+    "core/Cell.hpp": (
+        "    Vector3r _cos;\n    Vector3r _refSize;",
+        "    Vector3r _refSize;\n    Vector3r _cos;",
+    ),
     "core/Material.hpp": (
         "    virtual shared_ptr<State> newAssocState() const;\n    virtual bool stateTypeOk(State*) const;",
         "    virtual bool stateTypeOk(State*) const;\n    virtual shared_ptr<State> newAssocState() const;",

@@ -18,7 +18,9 @@ def uncovered(declarations: Declarations) -> list[str]:
     missing = []
     for name, cls in declarations.classes.items():
         template = name.split("<")[0]
-        if name != template and template not in OUR_TEMPLATES:  # a template with data: its members are compared
+        if (
+            name != template and template not in OUR_TEMPLATES
+        ):  # a template with data: its members are compared
             missing += [name] if not cls.members else []
         elif name == template and name not in {*SIZED, *FOLLOWS, *NEVER_LAID_OUT}:
             missing.append(f"size of {name}")
@@ -29,7 +31,11 @@ def uncovered(declarations: Declarations) -> list[str]:
         if pair[0] in NEVER_LAID_OUT or pair in measured():
             continue
         kind = declarations.classes[pair[0]].members[pair[1]].type
-        known = kind in SENTINELS or pair in PYTHON_FORM or (kind == "shared_ptr" and pair[1] in OBJECTS)
+        known = (
+            kind in SENTINELS
+            or pair in PYTHON_FORM
+            or (kind == "shared_ptr" and pair[1] in OBJECTS)
+        )
         if not reachable(*pair):
             missing.append(f"{name}: neither in Python nor in measured_offsets.csv")
         elif not known:

@@ -21,7 +21,9 @@ FOLLOWS = {
 # Classes that are only called, never laid out: what is declared of them is the beginning at most.
 NEVER_LAID_OUT = {"Omega", "Logging", "ClassFactory", "Mathr"}
 SIZED = sorted(
-    name for name in declared().classes if "<" not in name and name not in {*FOLLOWS, *NEVER_LAID_OUT}
+    name
+    for name in declared().classes
+    if "<" not in name and name not in {*FOLLOWS, *NEVER_LAID_OUT}
 )
 
 SCRIPT = """
@@ -44,7 +46,9 @@ print("SIZES", json.dumps(sizes))
 def allocated(tmp_path_factory) -> dict[str, int]:
     """Bytes that YADE requested for one object of each class, recorded in a process of its own."""
     script = tmp_path_factory.mktemp("sizes") / "sizes.py"
-    script.write_text(SCRIPT.format(path=[str(BUILD / "tests" / "abi")], names=SIZED), encoding="utf-8")
+    script.write_text(
+        SCRIPT.format(path=[str(BUILD / "tests" / "abi")], names=SIZED), encoding="utf-8"
+    )
     recorder = BUILD / "tests" / "abi" / "liballocation_recorder.so"
     run = subprocess.run(
         ["yade", "-n", "-x", str(script)],

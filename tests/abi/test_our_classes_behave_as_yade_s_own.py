@@ -98,7 +98,12 @@ def test_child_classes_and_dispatch_hierarchy_include_ours():
     assert "GrainMat" in yade.system.childClasses("Material")
     assert "PowerLawFriction" in yade.system.childClasses("FrictionCurve")
     assert O.isChildClassOf("GrainMat", "ElastMat")
-    assert yade.wrapper.GrainMat().dispHierarchy() == ["GrainMat", "FrictMat", "ElastMat", "Material"]
+    assert yade.wrapper.GrainMat().dispHierarchy() == [
+        "GrainMat",
+        "FrictMat",
+        "ElastMat",
+        "Material",
+    ]
     assert yade.wrapper.GrainPhys.__mro__[1] is yade.wrapper.FrictPhys
 
 
@@ -188,7 +193,10 @@ def test_labels_name_materials_and_functors():
     assert O.materials["sand"].label == "sand"
     import builtins
 
-    assert builtins.law is not None and type(builtins.law).__name__ == "Law2_ScGeom_GrainPhys_HertzMindlin"
+    assert (
+        builtins.law is not None
+        and type(builtins.law).__name__ == "Law2_ScGeom_GrainPhys_HertzMindlin"
+    )
     assert type(builtins.maker).__name__ == "Ip2_GrainMat_GrainMat_GrainPhys"
 
 

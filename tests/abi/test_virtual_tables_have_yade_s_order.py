@@ -13,7 +13,9 @@ WITHOUT_TABLE = {"Indexable"}
 POLYMORPHIC = sorted(set(declared().virtual_tables) - WITHOUT_TABLE)
 # Not made from Python, or (EnergyTracker) without a dictionary of attributes in YADE itself.
 NOT_ASKED = {"BodyContainer", "InteractionContainer", "EnergyTracker"}
-CONSTRUCTIBLE = [name for name in POLYMORPHIC if hasattr(yade.wrapper, name) and name not in NOT_ASKED]
+CONSTRUCTIBLE = [
+    name for name in POLYMORPHIC if hasattr(yade.wrapper, name) and name not in NOT_ASKED
+]
 
 
 @pytest.mark.parametrize("name", POLYMORPHIC)

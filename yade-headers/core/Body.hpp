@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Body is 176 bytes; a clump's id equals its clumpId; bits of flags; a body is dynamic unless all its degrees
-// of freedom are blocked. byId is exported. One virtual function beyond Serializable's. Verified: tests/abi.
+// Facts: Body is 176 bytes; a clump's id equals its clumpId; bits of flags; a body is dynamic unless all its
+// degrees of freedom are blocked. byId is exported. One virtual function beyond Serializable's. Verified:
+// tests/abi.
 #pragma once
 
 #include <core/Bound.hpp>
@@ -15,7 +16,7 @@ class Interaction;
 
 class Body : public Serializable {
 public:
-    using id_t        = int;
+    using id_t = int;
     using MapId2IntrT = std::map<id_t, shared_ptr<Interaction>>;
 
     enum { FLAG_BOUNDED = 1, FLAG_ASPHERICAL = 2, FLAG_SUBDOMAIN = 4, FLAG_FLUIDDOMAINBBOX = 8 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: BodyContainer is 200 bytes, its vector of bodies (with empty pointers where one was erased) at 24; access
-// functions are exported; iteration skips empty pointers. Verified: tests/abi.
+// Facts: BodyContainer is 200 bytes, its vector of bodies (with empty pointers where one was erased) at 24;
+// access functions are exported; iteration skips empty pointers. Verified: tests/abi.
 #pragma once
 
 #include <core/Body.hpp>

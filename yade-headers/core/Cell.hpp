@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Facts: Cell is 1104 bytes. Body 2 of an interaction stands cellDist cells away: its position is shifted by
-// hSize*cellDist, its velocity by the (cached) velocity gradient times the previous hSize, times cellDist. Verified:
-// tests/abi.
+// hSize*cellDist, its velocity by the (cached) velocity gradient times the previous hSize, times cellDist.
+// Verified: tests/abi.
 #pragma once
 
 #include <lib/serialization/Serializable.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Clump is 168 bytes: members (id to pose in the clump's frame) at 96, their ids at 144. Verified: tests/abi.
+// Facts: Clump is 168 bytes: members (id to pose in the clump's frame) at 96, their ids at 144. Verified:
+// tests/abi.
 #pragma once
 
 #include <core/Body.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Engine is 104 bytes: scene 24, timing 32, dead 64, ompThreads 68, label 72; slots isActivated and action
-// follow Serializable's. Its exported constructor sets scene to the current one. Verified: tests/abi.
+// Facts: Engine is 104 bytes: scene 24, timing 32, dead 64, ompThreads 68, label 72; slots isActivated and
+// action follow Serializable's. Its exported constructor sets scene to the current one. Verified: tests/abi.
 #pragma once
 
 #include <lib/base/Logging.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: ForceContainer is 304 bytes and stands in Scene by value; adding goes to the calling thread's own vector
-// without a lock, reading needs sync() first. Its functions are exported. Verified: tests/abi.
+// Facts: ForceContainer is 304 bytes and stands in Scene by value; adding goes to the calling thread's own
+// vector without a lock, reading needs sync() first. Its functions are exported. Verified: tests/abi.
 #pragma once
 
 #include <core/Body.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Interaction is 168 bytes; real means that it has both geometry and physics; functors found once are kept
-// in it until it is reset. isFresh, reset, swapOrder are exported. Verified: tests/abi.
+// Facts: Interaction is 168 bytes; real means that it has both geometry and physics; functors found once are
+// kept in it until it is reset. isFresh, reset, swapOrder are exported. Verified: tests/abi.
 #pragma once
 
 #include <lib/serialization/Serializable.hpp>

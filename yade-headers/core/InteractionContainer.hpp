@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: InteractionContainer is 192 bytes, its linear vector (real and potential interactions) at 24; find and
-// requestErase are exported; Python does not know the class; an erased interaction stays as potential until the collider drops it. Verified:
-// tests/abi.
+// Facts: InteractionContainer is 192 bytes, its linear vector (real and potential interactions) at 24; find
+// and requestErase are exported; Python does not know the class; an erased interaction stays as potential
+// until the collider drops it. Verified: tests/abi.
 #pragma once
 
 #include <core/BodyContainer.hpp>
@@ -24,7 +24,7 @@ public:
     bool serializeSorted;
     long iterColliderLastRun;
 
-    using iterator       = ContainerT::iterator;
+    using iterator = ContainerT::iterator;
     using const_iterator = ContainerT::const_iterator;
     iterator begin() { return linIntrs.begin(); }
     iterator end() { return linIntrs.end(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Material is 80 bytes: id 32, label 40, density 72 (defaults -1, "", 1000). newAssocState and stateTypeOk
-// stand before the index functions in the table. Lookups are exported. Verified: tests/abi.
+// Facts: Material is 80 bytes: id 32, label 40, density 72 (defaults -1, "", 1000). newAssocState and
+// stateTypeOk stand before the index functions in the table. Lookups are exported. Verified: tests/abi.
 #pragma once
 
 #include <lib/multimethods/Indexable.hpp>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Facts: Omega's member functions used here are exported; buildDynlibDatabase, private to YADE but exported,
-// creates classes, fills the inheritance database and registers them with Python. DynlibDescriptor is a set of base
-// names and a flag (56 bytes). Verified: symbols of libyade.so, tests/abi. Omega's own layout is not needed.
+// creates classes, fills the inheritance database and registers them with Python. DynlibDescriptor is a set
+// of base names and a flag (56 bytes). Verified: symbols of libyade.so, tests/abi. Omega's own layout is not
+// needed.
 #pragma once
 
 #include <lib/base/Math.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Scene is 752 bytes with these members in this order; forces stand in it by value; cell is never null.
-// Verified: tests/abi.
+// Facts: Scene is 752 bytes with these members in this order; forces stand in it by value; cell is never
+// null. Verified: tests/abi.
 #pragma once
 
 #include <core/Body.hpp>

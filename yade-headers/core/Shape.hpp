@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Shape is 96 bytes: Indexable at 24, two functor caches (32, 48), color 64, wire 88, highlight 89; defaults
-// white, false, false. The index functions come in this order. Verified: tests/abi.
+// Facts: Shape is 96 bytes: Indexable at 24, two functor caches (32, 48), color 64, wire 88, highlight 89;
+// defaults white, false, false. The index functions come in this order. Verified: tests/abi.
 #pragma once
 
 #include <lib/multimethods/Indexable.hpp>

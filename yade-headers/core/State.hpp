@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: State is 320 bytes; pos and ori are references into se3, so a State is never copied; meaning of the bits
-// of blockedDOFs. Constructor exported. Verified: tests/abi.
+// Facts: State is 320 bytes; pos and ori are references into se3, so a State is never copied; meaning of the
+// bits of blockedDOFs. Constructor exported. Verified: tests/abi.
 #pragma once
 
 #include <lib/multimethods/Indexable.hpp>
@@ -30,9 +30,9 @@ public:
     Real densityScaling;
 
     enum { DOF_NONE = 0, DOF_X = 1, DOF_Y = 2, DOF_Z = 4, DOF_RX = 8, DOF_RY = 16, DOF_RZ = 32 };
-    static const unsigned DOF_XYZ    = DOF_X | DOF_Y | DOF_Z;
+    static const unsigned DOF_XYZ = DOF_X | DOF_Y | DOF_Z;
     static const unsigned DOF_RXRYRZ = DOF_RX | DOF_RY | DOF_RZ;
-    static const unsigned DOF_ALL    = DOF_XYZ | DOF_RXRYRZ;
+    static const unsigned DOF_ALL = DOF_XYZ | DOF_RXRYRZ;
 
     Vector3r displ() const { return pos - refPos; }
 

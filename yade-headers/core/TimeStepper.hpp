@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: TimeStepper is 112 bytes: active 104, timeStepUpdateInterval 108 (true, 1); slot computeTimeStep follows
-// Engine's; isActivated and action are its own. YADE finds steppers by dynamic_cast. Verified: tests/abi.
+// Facts: TimeStepper is 112 bytes: active 104, timeStepUpdateInterval 108 (true, 1); slot computeTimeStep
+// follows Engine's; isActivated and action are its own. YADE finds steppers by dynamic_cast. Verified:
+// tests/abi.
 #pragma once
 
 #include <core/GlobalEngine.hpp>

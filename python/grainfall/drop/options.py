@@ -127,6 +127,18 @@ class OptionTable:
         self.presets = presets
         self.by_name = {option.name: option for group in self.groups.values() for option in group}
 
+    def check_name(self, name: str) -> None:
+        """Raise `OptionError` for an unknown name."""
+        if name not in self.by_name:
+            near = difflib.get_close_matches(name, self.by_name, n=1)
+            hint = f" (did you mean {near[0]}?)" if near else ""
+            raise OptionError(f"unknown parameter {name!r}{hint}")
+
+    def check(self, name: str, value: Any) -> Any:
+        """The checked value of one parameter; raises `OptionError` also for an unknown name."""
+        self.check_name(name)
+        return self.by_name[name].check(value)
+
     def parser(self, description: str, epilog: str) -> argparse.ArgumentParser:
         """Command-line parser; values are left as text for `resolve` to check."""
         parser = argparse.ArgumentParser(
@@ -174,16 +186,13 @@ class OptionTable:
         overlays : iterable of callables
             Each gets the parameters found so far and returns further defaults; the user still wins.
         """
-        unknown = [name for name in given if name not in self.by_name]
-        if unknown:
-            near = difflib.get_close_matches(unknown[0], self.by_name, n=1)
-            hint = f" (did you mean {near[0]}?)" if near else ""
-            raise OptionError(f"unknown parameter {unknown[0]!r}{hint}")
+        for name, value in given.items():
+            self.check(name, value)
         values = {name: option.default for name, option in self.by_name.items()}
         if "preset" in self.by_name:
             preset = self.by_name["preset"].check(given.get("preset", values["preset"]))
             values.update(self.presets[preset])
-        values.update({name: value for name, value in given.items()})
+        values.update(given)
         for overlay in overlays:
             extra = overlay(values)
             values.update({name: value for name, value in extra.items() if name not in given})

@@ -67,9 +67,7 @@ class Snapshots:
             fileName=prefix, recorders=["spheres", "velocity", "intr"]
         )
         recorder()
-        write_vtp(
-            O.bodies[self.grains + WALL_COUNT], self.folder / "vtk" / f"{name}-projectile.vtp"
-        )
+        write_vtp(self.folder / "vtk" / f"{name}-projectile.vtp", O.bodies[self.grains + WALL_COUNT])
 
     def _contacts(self) -> tuple[np.ndarray, np.ndarray]:
         """Branches, shape (c, 3, 2) [m], and force magnitudes, shape (c,) [N], of all contacts."""

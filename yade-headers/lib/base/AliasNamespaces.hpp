@@ -2,8 +2,7 @@
 // Facts: inside namespace yade, `py` means boost::python. Verified: it is how YADE's own classes spell it.
 #pragma once
 
-namespace boost::python {
-}
+namespace boost::python {}
 
 namespace yade {
 namespace py = ::boost::python;

@@ -54,8 +54,8 @@ using mask_t = int;
 const Real NaN = std::numeric_limits<Real>::signaling_NaN();
 
 /// Angle between two unit vectors.
-template <typename Scalar> Scalar unitVectorsAngle(const Vector3<Scalar>& a, const Vector3<Scalar>& b)
-{
+template <typename Scalar>
+Scalar unitVectorsAngle(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
     return std::acos(a.dot(b));
 }
 

@@ -4,7 +4,8 @@
 // instance must never be made.
 #pragma once
 
-template <class T> class Singleton {
+template <class T>
+class Singleton {
 public:
     static T& instance();
 };

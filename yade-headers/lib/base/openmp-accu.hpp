@@ -11,15 +11,15 @@
 namespace yade {
 
 /// Sums kept apart by thread. Owned and resized by the library; here only read and added to.
-template <typename T> class OpenMPArrayAccumulator {
+template <typename T>
+class OpenMPArrayAccumulator {
 public:
     size_t size() const { return elements; }
-    T get(size_t i) const
-    {
-        return std::accumulate(chunks.begin(), chunks.end(), T(0), [i](T sum, const T* chunk) { return sum + chunk[i]; });
+    T get(size_t i) const {
+        return std::accumulate(chunks.begin(), chunks.end(), T(0),
+                               [i](T sum, const T* chunk) { return sum + chunk[i]; });
     }
-    void set(size_t i, const T& value)
-    {
+    void set(size_t i, const T& value) {
         for (T* chunk : chunks)
             chunk[i] = T(0);
         chunks[0][i] = value;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: registerFactorable and registerPluginClasses are exported; the list of plugin classes stands at offset
-// 144 (dynamic-library manager 88 bytes at 8, map of creators 48 bytes at 96). YADE reads the archives xml and
-// binary, so a class is exported to these four. Verified: symbols of libyade.so, tests/abi.
+// Facts: registerFactorable and registerPluginClasses are exported; the list of plugin classes stands at
+// offset 144 (dynamic-library manager 88 bytes at 8, map of creators 48 bytes at 96). YADE reads the archives
+// xml and binary, so a class is exported to these four. Verified: symbols of libyade.so, tests/abi.
 #pragma once
 
 #include <boost/archive/binary_iarchive.hpp>
@@ -26,7 +26,7 @@ class Factorable;
 class ClassFactory : public Singleton<ClassFactory> {
 public:
     using CreateShared = shared_ptr<Factorable> (*)();
-    using Create       = Factorable* (*)();
+    using Create = Factorable* (*)();
     using CreateOpaque = void* (*)();
 
     bool registerFactorable(string name, Create, CreateShared, CreateOpaque);
@@ -47,36 +47,49 @@ public:
 };
 
 namespace abi {
-    template <class T> shared_ptr<Factorable> createShared() { return shared_ptr<Factorable>(new T); }
-    // The factory's interface: it owns what these return.
-    template <class T> Factorable* create() { return new T; }
-    template <class T> void* createOpaque() { return new T; }
+template <class T>
+shared_ptr<Factorable> createShared() {
+    return shared_ptr<Factorable>(new T);
+}
+// The factory's interface: it owns what these return.
+template <class T>
+Factorable* create() {
+    return new T;
+}
+template <class T>
+void* createOpaque() {
+    return new T;
+}
 
-    template <class... Classes, class... Names> bool announcePlugin(const char* file, Names... names)
-    {
-        (ClassFactory::instance().registerFactorable(names, &create<Classes>, &createShared<Classes>, &createOpaque<Classes>), ...);
-        const char* list[] = { file, names..., nullptr };
-        ClassFactory::instance().registerPluginClasses(list);
-        return true;
-    }
+template <class... Classes, class... Names>
+bool announcePlugin(const char* file, Names... names) {
+    (ClassFactory::instance().registerFactorable(names, &create<Classes>, &createShared<Classes>,
+                                                 &createOpaque<Classes>),
+     ...);
+    const char* list[] = {file, names..., nullptr};
+    ClassFactory::instance().registerPluginClasses(list);
+    return true;
+}
 } // namespace abi
 
 } // namespace yade
 
 #define YADE_ABI_QUOTED(r, data, klass) , BOOST_PP_STRINGIZE(klass)
 #define YADE_ABI_EXPORT(r, data, klass) BOOST_CLASS_EXPORT_IMPLEMENT(yade::klass)
-#define YADE_ABI_PYTHON(r, data, klass)                                                                                \
-    void klass::pyRegisterClass(boost::python::object scope) { registerInPython(scope); }
+#define YADE_ABI_PYTHON(r, data, klass)                                                                      \
+    void klass::pyRegisterClass(boost::python::object scope) {                                               \
+        registerInPython(scope);                                                                             \
+    }
 
-// Stands inside namespace yade, which it closes and opens again because Boost's export macro opens its own. Each
-// class that uses a class macro needs it in exactly one source file.
-#define YADE_PLUGIN(classes)                                                                                           \
-    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_PYTHON, ~, classes)                                                                 \
-    namespace {                                                                                                        \
-        const bool BOOST_PP_CAT(pluginWith, BOOST_PP_SEQ_HEAD(classes))                                                \
-                = ::yade::abi::announcePlugin<BOOST_PP_SEQ_ENUM(classes)>(                                             \
-                        __FILE__ BOOST_PP_SEQ_FOR_EACH(YADE_ABI_QUOTED, ~, classes));                                  \
-    }                                                                                                                  \
-    }                                                                                                                  \
-    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_EXPORT, ~, classes)                                                                 \
+// Stands inside namespace yade, which it closes and opens again because Boost's export macro opens its own.
+// Each class that uses a class macro needs it in exactly one source file.
+#define YADE_PLUGIN(classes)                                                                                 \
+    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_PYTHON, ~, classes)                                                       \
+    namespace {                                                                                              \
+    const bool BOOST_PP_CAT(pluginWith, BOOST_PP_SEQ_HEAD(classes)) =                                        \
+        ::yade::abi::announcePlugin<BOOST_PP_SEQ_ENUM(classes)>(                                             \
+            __FILE__ BOOST_PP_SEQ_FOR_EACH(YADE_ABI_QUOTED, ~, classes));                                    \
+    }                                                                                                        \
+    }                                                                                                        \
+    BOOST_PP_SEQ_FOR_EACH(YADE_ABI_EXPORT, ~, classes)                                                       \
     namespace yade {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: yade::Mathr holds the constants of type Real. Verified: names only; they are compile-time values of ours.
+// Facts: yade::Mathr holds the constants of type Real. Verified: names only; they are compile-time values of
+// ours.
 #pragma once
 
 #include <lib/high-precision/Real.hpp>
@@ -7,13 +8,13 @@
 namespace yade {
 
 struct Mathr {
-    static constexpr Real PI             = 3.14159265358979323846;
-    static constexpr Real TWO_PI         = 2 * PI;
-    static constexpr Real HALF_PI        = PI / 2;
-    static constexpr Real DEG_TO_RAD     = PI / 180;
-    static constexpr Real RAD_TO_DEG     = 180 / PI;
-    static constexpr Real EPSILON        = std::numeric_limits<Real>::epsilon();
-    static constexpr Real MAX_REAL       = std::numeric_limits<Real>::max();
+    static constexpr Real PI = 3.14159265358979323846;
+    static constexpr Real TWO_PI = 2 * PI;
+    static constexpr Real HALF_PI = PI / 2;
+    static constexpr Real DEG_TO_RAD = PI / 180;
+    static constexpr Real RAD_TO_DEG = 180 / PI;
+    static constexpr Real EPSILON = std::numeric_limits<Real>::epsilon();
+    static constexpr Real MAX_REAL = std::numeric_limits<Real>::max();
     static constexpr Real ZERO_TOLERANCE = 1e-20;
 };
 

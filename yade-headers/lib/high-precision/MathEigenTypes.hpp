@@ -7,27 +7,33 @@
 #include <Eigen/Geometry>
 
 #ifndef EIGEN_DONT_ALIGN
-#error "YADE's classes were laid out with EIGEN_DONT_ALIGN; without it State is 16 bytes longer than in the library"
+#error                                                                                                       \
+    "YADE's classes were laid out with EIGEN_DONT_ALIGN; without it State is 16 bytes longer than in the library"
 #endif
 
 namespace yade {
 
-template <typename Scalar> using Vector2 = Eigen::Matrix<Scalar, 2, 1>;
-template <typename Scalar> using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
-template <typename Scalar> using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
-template <typename Scalar> using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
+template <typename Scalar>
+using Vector2 = Eigen::Matrix<Scalar, 2, 1>;
+template <typename Scalar>
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+template <typename Scalar>
+using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
+template <typename Scalar>
+using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
-using Vector2i    = Vector2<int>;
-using Vector3i    = Vector3<int>;
-using Vector2r    = Vector2<Real>;
-using Vector3r    = Vector3<Real>;
-using Vector6r    = Vector6<Real>;
-using Matrix3r    = Matrix3<Real>;
+using Vector2i = Vector2<int>;
+using Vector3i = Vector3<int>;
+using Vector2r = Vector2<Real>;
+using Vector3r = Vector3<Real>;
+using Vector6r = Vector6<Real>;
+using Matrix3r = Matrix3<Real>;
 using Quaternionr = Eigen::Quaternion<Real>;
-using AngleAxisr  = Eigen::AngleAxis<Real>;
+using AngleAxisr = Eigen::AngleAxis<Real>;
 
 /// Rigid motion; position first, then orientation (stored x, y, z, w).
-template <class Scalar> class Se3 {
+template <class Scalar>
+class Se3 {
 public:
     Vector3<Scalar> position;
     Eigen::Quaternion<Scalar> orientation;
@@ -38,7 +44,8 @@ public:
 };
 using Se3r = Se3<Real>;
 
-static_assert(sizeof(Vector3r) == 24 && sizeof(Quaternionr) == 32 && sizeof(Matrix3r) == 72 && sizeof(Se3r) == 56,
+static_assert(sizeof(Vector3r) == 24 && sizeof(Quaternionr) == 32 && sizeof(Matrix3r) == 72 &&
+                  sizeof(Se3r) == 56,
               "sizes measured in the installed library");
 
 } // namespace yade

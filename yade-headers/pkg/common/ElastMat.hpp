@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: ElastMat is 96 bytes: young 80, poisson 88 (1e9, 0.25); FrictMat is 104: frictionAngle 96, constructor
-// exported. Verified: tests/abi.
+// Facts: ElastMat is 96 bytes: young 80, poisson 88 (1e9, 0.25); FrictMat is 104: frictionAngle 96,
+// constructor exported. Verified: tests/abi.
 #pragma once
 
 #include <core/Material.hpp>

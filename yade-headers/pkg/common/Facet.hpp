@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: Facet is 328 bytes: edge normals 96, inscribed radius 168, distances 176 and directions 200 of the vertices,
-// vertices 272, normal 296, area 320; its constructor is exported. Verified: tests/abi.
+// Facts: Facet is 328 bytes: edge normals 96, inscribed radius 168, distances 176 and directions 200 of the
+// vertices, vertices 272, normal 296, area 320; its constructor is exported. Verified: tests/abi.
 #pragma once
 
 #include <core/Shape.hpp>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Facts: ScGeom is 192 bytes: rotation caches 96 and 120, radius1/2 are references to refR1/2 (144, 152),
-// penetrationDepth (positive in contact) 160, shearInc 168. precompute stores the new normal and what rotate needs
-// to turn a tangential vector with the contact. All functions and the constructor are exported. Verified: tests/abi.
+// penetrationDepth (positive in contact) 160, shearInc 168. precompute stores the new normal and what rotate
+// needs to turn a tangential vector with the contact. All functions and the constructor are exported.
+// Verified: tests/abi.
 #pragma once
 
 #include <core/IGeom.hpp>
