@@ -4,7 +4,7 @@
 # usage: tools/install-dependencies.sh [--check]     --check: only list what is missing (exit 1 if anything is)
 set -euo pipefail
 
-run_packages=(yade python3-numpy python3-scipy python3-matplotlib python3-h5py python3-tqdm python3-vtk9)
+run_packages=(yade python3-numpy python3-scipy python3-matplotlib python3-h5py python3-tqdm python3-meshio)
 build_packages=(g++ cmake ninja-build make git libeigen3-dev libboost-python-dev libboost-serialization-dev
                 libboost-log-dev libboost-thread-dev libboost-system-dev libboost-filesystem-dev
                 libboost-iostreams-dev python3-dev)

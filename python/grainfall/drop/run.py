@@ -12,12 +12,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yade
+import yade.timing
 from yade import O
 
 from grainfall.beds import Bed, load_bed, obtain_bed, save_bed
 from grainfall.drop import trace as traces
-from grainfall.drop.parameters import QUICK, TABLE, OptionError
+from grainfall.drop.options import OptionError
+from grainfall.drop.parameters import QUICK, TABLE
 from grainfall.drop.progress import Progress
 from grainfall.drop.results import touch_time
 from grainfall.drop.scene import bed_spec, build_scene, projectile_id

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import meshio
 import numpy as np
 import yade.wrapper
 from yade import O
@@ -63,11 +64,12 @@ class Snapshots:
             box=np.array(self.box),
         )
         prefix = str(self.folder / "vtk" / name) + "-"
-        recorder = yade.wrapper.VTKRecorder(
-            fileName=prefix, recorders=["spheres", "velocity", "intr"]
-        )
+        recorder = yade.wrapper.VTKRecorder(fileName=prefix, recorders=["spheres", "velocity"])
         recorder()
-        write_vtp(self.folder / "vtk" / f"{name}-projectile.vtp", O.bodies[self.grains + WALL_COUNT])
+        _write_branches(self.folder / "vtk" / f"{name}-contacts.vtu", points, forces)
+        write_vtp(
+            self.folder / "vtk" / f"{name}-projectile.vtp", O.bodies[self.grains + WALL_COUNT]
+        )
 
     def _contacts(self) -> tuple[np.ndarray, np.ndarray]:
         """Branches, shape (c, 3, 2) [m], and force magnitudes, shape (c,) [N], of all contacts."""
@@ -87,3 +89,13 @@ class Snapshots:
     def _end(self, body: int, geom) -> list[float]:
         """End of a branch: the grain's centre, or the contact point on a wall or the projectile."""
         return list(O.bodies[body].state.pos if body < self.grains else geom.contactPoint)
+
+
+def _write_branches(path: Path, branches: np.ndarray, forces: np.ndarray) -> None:
+    """Contacts as lines with their force.
+
+    YADE's VTKRecorder has no contacts with bodies other than spheres and walls: it crashes on them.
+    """
+    points = np.swapaxes(branches, 1, 2).reshape(-1, 3)
+    lines = np.arange(len(points)).reshape(-1, 2)
+    meshio.Mesh(points, [("line", lines)], cell_data={"force_N": [forces]}).write(path)

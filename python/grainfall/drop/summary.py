@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
+import builtins
 import math
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import yade
 from yade import O
 
 from grainfall.beds import Bed
@@ -76,7 +76,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
         )
     summary.update(coarsening(p, bed))
     summary["largest_overlap_over_radius"] = run.snapshots.largest_relative_overlap
-    summary["effects"] = dict(yade.contact_law.effects)
+    summary["effects"] = dict(builtins.contact_law.effects)
     summary["price"] = engine_seconds(run)
     summary["bed"] = {**bed.report, "from_cache": run.bed_was_cached}
     summary["parameters"] = dict(p)

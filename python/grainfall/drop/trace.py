@@ -6,6 +6,7 @@ The recorder's engine is saved with the scene and finds its trace here, so a res
 
 from __future__ import annotations
 
+import builtins
 import csv
 import math
 from pathlib import Path
@@ -149,10 +150,8 @@ def energy_row() -> tuple[float, ...]:
 
 
 def _engine(label: str) -> Any:
-    """The engine or functor of this label in the scene in hand."""
-    import yade
-
-    return getattr(yade, label)
+    """The engine or functor of this label in the scene in hand; YADE makes labels built-in names."""
+    return getattr(builtins, label)
 
 
 def _read(path: Path, until: float) -> list[tuple[float, ...]]:
