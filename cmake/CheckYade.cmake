@@ -31,6 +31,13 @@ list(GET yade_found 1 YADE_BITS)
 list(GET yade_found 2 YADE_ID_LIBYADE)
 list(GET yade_found 3 YADE_ID_COMMON)
 list(GET yade_found 4 YADE_ID_DEM)
+if(YADE_SOURCE_DIR AND EXISTS "${YADE_SOURCE_DIR}/RELEASE")
+    file(STRINGS "${YADE_SOURCE_DIR}/RELEASE" yade_source_version LIMIT_COUNT 1)
+    if(NOT yade_source_version STREQUAL YADE_VERSION)
+        message(FATAL_ERROR "The source tree ${YADE_SOURCE_DIR} is YADE ${yade_source_version}, but the YADE installed in "
+                            "${YADE_LIBRARY_DIR} is ${YADE_VERSION}.")
+    endif()
+endif()
 message(STATUS "YADE ${YADE_VERSION}, ${YADE_BITS}-bit, in ${YADE_LIBRARY_DIR}; compiled against ${GRAINFALL_HEADERS}")
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/python/grainfall/_build_info.py" @ONLY CONTENT
 "# SPDX-License-Identifier: GPL-2.0-or-later

@@ -7,6 +7,7 @@ Under yade-batch the columns of the parameter table are the options, with unders
 """
 
 import os
+import re
 import sys
 
 from yade import O, utils
@@ -29,20 +30,21 @@ def batch_row() -> dict[str, object]:
     utils.readParamsFromTable(noTableOk=False, **names)
     row = {name: getattr(params.table, name) for name in names}
     given = {name: value for name, value in row.items() if value is not None}
-    given.setdefault("output", os.path.join("results", O.tags["id"].replace("/", "-")))
+    row_name = re.sub(r"[^\w.=-]+", "_", str(O.tags["description"])).strip("_")
+    given.setdefault("output", os.path.join("results", row_name or O.tags["id"]))
     return given
 
 
 def main() -> int:
     """Read options, run, report; the exit code says how it went."""
-    in_batch = "PARAM_TABLE" in os.environ
+    parser = TABLE.parser(__doc__.splitlines()[0], EPILOG)
     try:
-        parser = TABLE.parser(__doc__.splitlines()[0], EPILOG)
-        drop_test(**(batch_row() if in_batch else vars(parser.parse_args(sys.argv[1:]))))
+        given = batch_row() if utils.runningInBatch() else vars(parser.parse_args(sys.argv[1:]))
+        summary = drop_test(**given)
     except (OptionError, ValueError) as error:
         print(f"drop_test.py: error: {error}", file=sys.stderr)
         return 2
-    return 0
+    return 130 if summary["interrupted"] else 0
 
 
 exit_code = main()

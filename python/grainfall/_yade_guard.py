@@ -13,7 +13,7 @@ import re
 import struct
 import sys
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 ALLOW_VARIABLE = "GRAINFALL_ALLOW_UNVERIFIED_YADE"
@@ -147,6 +147,10 @@ def verified_build() -> YadeBuild:
     return VERIFIED
 
 
+def _unverified_allowed() -> bool:
+    return os.environ.get(ALLOW_VARIABLE, "") not in ("", "0")
+
+
 def require_verified_yade() -> None:
     """Raise ImportError with one sentence unless the running YADE is the verified one."""
     found, verified = running_build(), verified_build()
@@ -154,7 +158,7 @@ def require_verified_yade() -> None:
     if refused:
         raise ImportError(refused)
     doubted = build_objection(found, verified)
-    if doubted and os.environ.get(ALLOW_VARIABLE, "") not in ("", "0"):
+    if doubted and _unverified_allowed():
         warnings.warn(doubted, RuntimeWarning, stacklevel=2)
     elif doubted:
         raise ImportError(doubted)
@@ -162,21 +166,19 @@ def require_verified_yade() -> None:
 
 def _check_installation(library_dir: Path, any_version: bool) -> int:
     """For CMake: print the sentence and fail, or print what was found as a CMake list."""
+    if not (library_dir / "py" / "yade" / "config.py").exists():
+        print(f"grainfall found no YADE in {library_dir}; it needs {VERIFIED}.", end="")
+        return 1
     found = installed_build(library_dir)
-    refused = objection(found, VERIFIED) or build_objection(found, VERIFIED)
+    refused, doubted = objection(found, VERIFIED), build_objection(found, VERIFIED)
     if any_version:
-        refused = (
-            "" if found.bits == 64 else f"grainfall needs 64-bit real numbers and found {found}."
-        )
-    if (
-        refused
-        and os.environ.get(ALLOW_VARIABLE, "") not in ("", "0")
-        and not objection(found, VERIFIED)
-    ):
-        print(refused, file=sys.stderr)
-        refused = ""
-    print(refused or ";".join([found.version, str(found.bits), *found.build_ids.values()]), end="")
-    return 1 if refused else 0
+        refused, doubted = objection(found, replace(found, bits=VERIFIED.bits)), ""
+    if doubted and _unverified_allowed():
+        print(doubted, file=sys.stderr)
+        doubted = ""
+    described = ";".join([found.version, str(found.bits), *found.build_ids.values()])
+    print(refused or doubted or described, end="")
+    return 1 if refused or doubted else 0
 
 
 if __name__ == "__main__":

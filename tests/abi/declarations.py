@@ -54,7 +54,7 @@ class Declarations:
 
 
 def declared_names(headers: Path) -> tuple[set[str], set[str]]:
-    """Names of classes and of class templates in the headers, those in namespace abi (our own helpers) left out."""
+    """Names of classes and of class templates in the headers, those in namespace abi (ours alone) left out."""
     classes: set[str] = set()
     templates: set[str] = set()
     for header in headers.rglob("*.hpp"):

@@ -70,6 +70,33 @@ def virtual_table(class_name: str) -> list[str] | None:
     return [_entry(word) for word in _demangle(tables[0])]
 
 
+def called_signatures(class_name: str) -> set[tuple[str, ...]]:
+    """Result and parameter types of each `go` in a functor family's table, as (result, parameter, ...)."""
+    table = next(table for library in libraries() if (table := library.table(class_name)))
+    found = set()
+    for text in _demangle(table):
+        if match := re.match(r"yade::FunctorWrapper<(\w+), .*>::go\((.*)\)$", text):
+            found.add((match.group(1), *map(plain_type, split_types(match.group(2)))))
+    return found
+
+
+def split_types(text: str) -> list[str]:
+    """Split a list of types at the commas that stand outside angle brackets."""
+    parts, depth = [""], 0
+    for character in text:
+        depth += {"<": 1, ">": -1}.get(character, 0)
+        if character == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part.strip() for part in parts]
+
+
+def plain_type(text: str) -> str:
+    """Write `const T&` as `T const&`, the one of the two spellings that c++filt uses."""
+    return re.sub(r"^const (.*?)([&*])$", r"\1 const\2", text)
+
+
 def table_differences(class_name: str, declared: list[str]) -> list[str]:
     """Compare a declared table with the installed one, slot by slot; the slots that differ, as text."""
     theirs = virtual_table(class_name)

@@ -11,6 +11,13 @@ from comparison import declared
 # Their tables are not exported; they are compared as parts of the tables of the classes derived from them.
 WITHOUT_TABLE = {"Indexable"}
 POLYMORPHIC = sorted(set(declared().virtual_tables) - WITHOUT_TABLE)
+# Functor families, each with a parameter that only it has.
+FAMILIES = {
+    "BoundFunctor": "shared_ptr<yade::Bound>&",
+    "IGeomFunctor": "bool const&",
+    "IPhysFunctor": "const boost::shared_ptr<yade::Material>&",
+    "LawFunctor": "yade::Interaction*",
+}
 # Not made from Python, or (EnergyTracker) without a dictionary of attributes in YADE itself.
 NOT_ASKED = {"BodyContainer", "InteractionContainer", "EnergyTracker"}
 CONSTRUCTIBLE = [
@@ -21,6 +28,17 @@ CONSTRUCTIBLE = [
 @pytest.mark.parametrize("name", POLYMORPHIC)
 def test_each_slot_holds_the_function_that_the_library_has_there(name):
     assert installed.table_differences(name, declared().virtual_tables[name]) == []
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_the_function_that_a_dispatcher_calls_has_our_result_and_parameters(family):
+    base = next(
+        installed.split_types(name.removeprefix("FunctorWrapper<").removesuffix(">"))
+        for name in declared().classes
+        if name.startswith("FunctorWrapper<") and FAMILIES[family] in name
+    )
+    ours = (base[0], *map(installed.plain_type, base[1:]))
+    assert ours in installed.called_signatures(family)
 
 
 @pytest.mark.parametrize("name", CONSTRUCTIBLE)

@@ -26,16 +26,16 @@ from yade import (
 )
 
 RADIUS = 0.005
-STEPS = 4000
+STEPS = 3000
 
 
 def build() -> None:
-    """125 grains, a little out of order, over the floor of a box."""
+    """343 grains, a little out of order, over the floor of a box."""
     friction = ExponentialFriction(0.8, 0.2, 0.05)
     O.materials.append(
         GrainMat(young=1e8, poisson=0.25, density=2500, restitution=0.6, friction=friction)
     )
-    count, pitch = 5, 2.1 * RADIUS
+    count, pitch = 7, 2.02 * RADIUS
     for i in range(count**3):
         x, y, z = i % count, i // count % count, i // count**2
         shift = 0.05 * RADIUS * math.sin(7.0 * i)

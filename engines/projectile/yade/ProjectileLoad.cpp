@@ -76,6 +76,12 @@ void ProjectileLoad::action() {
     noseTorque = loads[0].torque;
     shaftTorque = loads[1].torque;
     baseTorque = loads[2].torque;
+    if (impulseStep != scene->iter) { // a call from Python in between is no step
+        impulseStep = scene->iter;
+        noseImpulse += noseForce * scene->dt;
+        shaftImpulse += shaftForce * scene->dt;
+        baseImpulse += baseForce * scene->dt;
+    }
     noseContacts = loads[0].contacts;
     shaftContacts = loads[1].contacts;
     baseContacts = loads[2].contacts;

@@ -16,6 +16,7 @@ public:
     void action() override;
 
     Vector3r totalForce() const { return noseForce + shaftForce + baseForce; }
+    Vector3r totalImpulse() const { return noseImpulse + shaftImpulse + baseImpulse; }
     Vector3r totalTorque() const { return noseTorque + shaftTorque + baseTorque; }
     int contacts() const { return noseContacts + shaftContacts + baseContacts; }
 
@@ -32,11 +33,16 @@ public:
         ((Vector3r, noseTorque, Vector3r::Zero(), Attr::readonly, "Moment of the force on the nose [N m]."))
         ((Vector3r, shaftTorque, Vector3r::Zero(), Attr::readonly, "Moment of the force on the shaft [N m]."))
         ((Vector3r, baseTorque, Vector3r::Zero(), Attr::readonly, "Moment of the force on the base [N m]."))
+        ((Vector3r, noseImpulse, Vector3r::Zero(), , "Force on the nose times step, summed over the steps since it was last set to zero [N s]: the exact mean between two moments."))
+        ((Vector3r, shaftImpulse, Vector3r::Zero(), , "The same for the shaft [N s]."))
+        ((Vector3r, baseImpulse, Vector3r::Zero(), , "The same for the base [N s]."))
+        ((long, impulseStep, -1, Attr::hidden, "Step that the impulses have counted last."))
         ((int, noseContacts, 0, Attr::readonly, "Number of contacts on the nose."))
         ((int, shaftContacts, 0, Attr::readonly, "Number of contacts on the shaft."))
         ((int, baseContacts, 0, Attr::readonly, "Number of contacts on the base."))
         , ,
         .add_property("totalForce", &ProjectileLoad::totalForce, "Sum of the three forces [N].")
+        .add_property("totalImpulse", &ProjectileLoad::totalImpulse, "Sum of the three impulses [N s].")
         .add_property("totalTorque", &ProjectileLoad::totalTorque, "Sum of the three moments [N m].")
         .add_property("contacts", &ProjectileLoad::contacts, "Number of all contacts.")
     );

@@ -118,13 +118,27 @@ def _to_bool(value: Any) -> bool:
 
 
 class OptionTable:
-    """The options of a scenario, in groups, with the presets that change their defaults."""
+    """The options of a scenario, in groups, with the presets that change their defaults.
+
+    Parameters
+    ----------
+    groups : mapping
+        Options under the titles of their groups.
+    presets : mapping
+        Defaults by preset.
+    checks : iterable of callables
+        Each gets all values and those given; raises `OptionError` for values that do not fit together.
+    """
 
     def __init__(
-        self, groups: Mapping[str, Iterable[Option]], presets: Mapping[str, Mapping[str, Any]]
+        self,
+        groups: Mapping[str, Iterable[Option]],
+        presets: Mapping[str, Mapping[str, Any]],
+        checks: Iterable[Callable[[dict[str, Any], Mapping[str, Any]], None]] = (),
     ) -> None:
         self.groups = {title: tuple(options) for title, options in groups.items()}
         self.presets = presets
+        self.checks = tuple(checks)
         self.by_name = {option.name: option for group in self.groups.values() for option in group}
 
     def check_name(self, name: str) -> None:
@@ -196,4 +210,7 @@ class OptionTable:
         for overlay in overlays:
             extra = overlay(values)
             values.update({name: value for name, value in extra.items() if name not in given})
-        return {name: self.by_name[name].check(value) for name, value in values.items()}
+        values = {name: self.by_name[name].check(value) for name, value in values.items()}
+        for check in self.checks:
+            check(values, given)
+        return values

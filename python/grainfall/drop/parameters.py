@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from grainfall.drop.checks import CHECKS
 from grainfall.drop.options import Option, OptionTable
 
 GRAVITY = 9.81  # m/s2
@@ -64,7 +65,7 @@ PRESETS: dict[str, dict[str, Any]] = {
 }
 
 # For `make demo`: grains that 2 slow cores can push through a whole drop in two minutes.
-QUICK = {"grain_diameter": 10e-3, "young": 2e8, "bed_depth": 0.2, "vtk_interval": 0.02}
+QUICK = {"grain_diameter": 12e-3, "young": 2e8, "bed_depth": 0.2, "vtk_interval": 0.02}
 
 RUN = (
     Option("preset", "m70-full", "which drop", kind=str, choices=tuple(PRESETS)),
@@ -147,9 +148,8 @@ SAND = (
         0.6,
         "coefficient of restitution, grain on grain; 1 for no dashpot",
         "-",
-        low=0,
+        low=0.01,
         high=1,
-        open_low=True,
     ),
     Option(
         "friction",
@@ -209,9 +209,8 @@ PROJECTILE = (
         0.6,
         "coefficient of restitution, grain on projectile",
         "-",
-        low=0,
+        low=0.01,
         high=1,
-        open_low=True,
     ),
 )
 
@@ -275,4 +274,5 @@ TABLE = OptionTable(
         "numerics": NUMERICS,
     },
     PRESETS,
+    CHECKS,
 )

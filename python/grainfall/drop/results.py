@@ -32,8 +32,8 @@ def drop_results(trace: Mapping[str, np.ndarray], mass: float, rest_speed: float
     Returns
     -------
     dict
-        Times count from the first touch. ``peak_force_N`` is the largest single sample;
-        ``peak_force_camera_N`` that of the mean over one frame of the report's camera (389 1/s).
+        Times count from the first touch. ``peak_force_N`` is the largest mean over one row of
+        the trace; ``peak_force_camera_N`` that of the mean over one frame of the report's camera (389 1/s).
     """
     start = touch_time(trace)
     after = trace["time_s"] >= start
@@ -57,7 +57,7 @@ def drop_results(trace: Mapping[str, np.ndarray], mass: float, rest_speed: float
         "peak_deceleration_camera_m_per_s2": float(smooth[smooth_peak]) / mass,
         "stop_time_s": stop,
         "final_tilt_deg": float(trace["tilt_deg"][-1]),
-        "impulse_N_s": float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(t))),
+        "impulse_N_s": float(np.sum(force[1:] * np.diff(t))),
         "stages": stages(t, smooth, stop),
     }
 

@@ -27,7 +27,7 @@ from grainfall.drop.summary import Clock, make_summary, print_summary
 from grainfall.materials import check_scene
 from grainfall.projectile_mesh import outline
 
-STATE, PARAMETERS, BED = "state.yade.gz", "parameters.json", "bed.h5"
+STATE, PARAMETERS, BED, EARLIER = "state.yade.gz", "parameters.json", "bed.h5", "sessions.json"
 #: How long the projectile has to be slow to count as at rest [s].
 REST_DURATION = 5e-3
 #: Wall time between two looks at the running simulation [s].
@@ -91,6 +91,8 @@ class DropRun:
         self.resumed = resumed
         self.clock = Clock()
         self.bed_was_cached = False
+        #: What earlier sessions of a resumed run spent and saw.
+        self.earlier: dict[str, Any] = {"wall_seconds": 0.0, "price": {}, "largest_overlap": 0.0}
         self.interrupted = False
 
     def execute(self) -> dict[str, Any]:
@@ -101,6 +103,7 @@ class DropRun:
         if self.resumed:
             self.trace.load(until=O.time)
         self.snapshots = self._snapshots(bed)
+        self.snapshots.largest_relative_overlap = self.earlier["largest_overlap"]
         traces.set_current(self.trace)
         O.timingEnabled = True
         yade.timing.reset()
@@ -134,8 +137,11 @@ class DropRun:
         return bed
 
     def _load(self) -> Bed:
-        """Scene and bed of the interrupted run."""
+        """Scene and bed of the interrupted run; contacts come back in another order, so that the trajectory
+        differs from an uninterrupted one in the last digits."""
         bed = load_bed(self.folder / BED)
+        if (self.folder / EARLIER).exists():
+            self.earlier = json.loads((self.folder / EARLIER).read_text())
         O.load(str(self.folder / STATE), quiet=True)
         return bed
 
@@ -212,6 +218,12 @@ class DropRun:
         """Summary, HDF5 file, pictures and page."""
         self.clock.lap("drop")
         summary = make_summary(self, bed)
+        spent = {
+            "wall_seconds": summary["wall_seconds"],
+            "price": summary["price"],
+            "largest_overlap": self.snapshots.largest_relative_overlap,
+        }
+        (self.folder / EARLIER).write_text(json.dumps(spent, indent=1))
         (self.folder / "summary.json").write_text(json.dumps(summary, indent=1) + "\n")
         self.trace.write_hdf5()
         if not self.parameters["no_plots"]:

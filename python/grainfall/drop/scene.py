@@ -81,7 +81,7 @@ def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
     p = parameters
     sand = sand_of(p)
     O.reset()
-    wall = sand.material("wall", friction=yade.wrapper.ConstantFriction(mu=p["wall_friction"]))
+    wall = sand.material("wall", friction=p["wall_friction"], referenceRadius=0.0)
     add_bed(bed, sand.material("sand"), wall)
     O.bodies.append(_projectile(p, bed))
     O.engines = _engines(p, sand, bed)
@@ -120,21 +120,24 @@ def _projectile(p: Mapping[str, Any], bed: Bed) -> Any:
 def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
     """Engines in YADE's order; the recorder stands where forces and positions belong to one moment."""
     w = yade.wrapper
-    verlet = 0.05 * float(bed.radii.min())
+    # At 0.15 R the collider runs about every ten steps while the projectile is fast.
+    verlet = 0.15 * float(bed.radii.min())
     bounds = [w.Bo1_Sphere_Aabb(), w.Bo1_Wall_Aabb(), w.Bo1_SolidOfRevolution_Aabb()]
     contact = [w.Ig2_SolidOfRevolution_Sphere_ScGeom(), w.Ig2_Wall_SolidOfRevolution_ScGeom()]
-    pair = w.GrainPair(
-        first="sand",
-        second="projectile",
-        friction=p["projectile_friction"],
-        restitution=p["projectile_restitution"],
-    )
+    on_projectile = {
+        "friction": p["projectile_friction"],
+        "restitution": p["projectile_restitution"],
+    }
+    pairs = [
+        w.GrainPair("sand", "projectile", **on_projectile),
+        w.GrainPair("sand", "wall", friction=p["wall_friction"]),
+    ]
     every = max(1, round(p["record_interval"] / time_step(p, bed)))
     command = "import grainfall.drop.trace; grainfall.drop.trace.record()"
     return [
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
-        contact_loop(sand, [pair], contact),
+        contact_loop(sand, pairs, contact),
         w.ProjectileLoad(body=projectile_id(bed), label="projectile_load"),
         w.PyRunner(command=command, iterPeriod=every, label="recorder"),
         w.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=0, label="integrator"),

@@ -64,7 +64,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
         "steps": O.iter,
         "time_step_s": O.dt,
         "simulated_seconds": O.time,
-        "wall_seconds": run.clock.total,
+        "wall_seconds": run.earlier["wall_seconds"] + run.clock.total,
         "interrupted": run.interrupted,
         "threads": O.numThreads,
     }
@@ -92,6 +92,8 @@ def engine_seconds(run: DropRun) -> dict[str, float]:
     price.update(run.clock.phases)
     price["drop"] = max(0.0, price.pop("drop", 0.0) - sum(e.execTime for e in O.engines) * 1e-9)
     price["checkpoints, snapshots, waiting"] = price.pop("drop")
+    for name, seconds in run.earlier["price"].items():
+        price[name] = price.get(name, 0.0) + seconds
     return price
 
 

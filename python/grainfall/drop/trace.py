@@ -62,6 +62,7 @@ class Trace:
         self.body = body
         self.surface = surface
         self.rows: list[tuple[float, ...]] = []
+        self._since = O.time
         self.energies: list[tuple[float, ...]] = []
         self._written = {"trace.csv": 0, "energy.csv": 0}
 
@@ -77,15 +78,26 @@ class Trace:
         nose = body.state.pos + axis * abs(body.shape.noseZ)
         load = _engine("projectile_load")
         tilt = math.degrees(math.acos(min(1.0, max(-1.0, -axis[2]))))
-        zones = (load.totalForce, load.noseForce, load.shaftForce, load.baseForce)
         return (
             O.time,
             self.surface - nose[2],
             -body.state.vel[2],
-            *(force[2] for force in zones),
+            *self._mean_forces(load),
             tilt,
             load.contacts,
         )
+
+    def _mean_forces(self, load: Any) -> tuple[float, ...]:
+        """Vertical force since the last row [N]: total, nose, shaft, base.
+
+        Grains hit and leave between two rows, so samples would not add up to the momentum lost.
+        """
+        span = O.time + O.dt - self._since
+        zones = (load.totalImpulse, load.noseImpulse, load.shaftImpulse, load.baseImpulse)
+        forces = tuple(impulse[2] / span for impulse in zones)
+        load.noseImpulse = load.shaftImpulse = load.baseImpulse = Vector3.Zero
+        self._since = O.time + O.dt
+        return forces
 
     def flush(self) -> None:
         """Append what is new to the files."""
@@ -105,6 +117,8 @@ class Trace:
     def load(self, until: float) -> None:
         """Take up the rows of an earlier part of the run, those up to `until` [s]; the rest is redone."""
         self.rows = _read(self.folder / "trace.csv", until)
+        if self.rows:
+            self._since = self.rows[-1][0] + O.dt
         self.energies = _read(self.folder / "energy.csv", until)
         for name in self._written:
             self._written[name] = 0

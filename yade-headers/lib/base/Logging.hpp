@@ -23,6 +23,7 @@ public:
         eTRACE = 6
     };
 
+    Logging() = delete; // the library makes the only one
     std::string colorSeverity(SeverityLevel);
     std::string colorNameTag();
     std::string colorLineNumber();

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What the range of a single parameter cannot show: parameters that do not fit together."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from grainfall.drop.options import OptionError
+
+
+def only_one_speed(values: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """The user gives a drop height or an impact speed; either replaces the preset's."""
+    asked = [name for name in ("drop_height", "impact_speed") if given.get(name) is not None]
+    if len(asked) == 2:
+        raise OptionError(
+            f"--drop-height = {given['drop_height']}, --impact-speed = {given['impact_speed']}: "
+            "must be one of the two"
+        )
+    if asked:
+        values["impact_speed" if asked == ["drop_height"] else "drop_height"] = None
+    if values["drop_height"] is None and values["impact_speed"] is None:
+        raise OptionError("--drop-height or --impact-speed: one of the two must be given")
+
+
+def projectile_fits(values: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """The projectile is known and falls inside the box."""
+    from grainfall.projectiles import projectile
+
+    try:
+        outline = projectile(values["profile"])
+    except ValueError as error:
+        raise OptionError(
+            f"--profile = {values['profile']!r}: must be a preset ({error})"
+        ) from None
+    diameter = 2 * max(radius for _, radius, _ in outline.profile)
+    for option, side in (("--offset-x", "box_length"), ("--offset-y", "box_width")):
+        if values[side] <= diameter:
+            flag = "--" + side.replace("_", "-")
+            raise OptionError(
+                f"{flag} = {values[side]}: must be above {diameter:.4g} m, the projectile's diameter"
+            )
+        reach = (values[side] - diameter) / 2
+        offset = values[option[2:].replace("-", "_")]
+        if abs(offset) > reach:
+            raise OptionError(
+                f"{option} = {offset}: must be a number in [{-reach:.4g}, {reach:.4g}] m, with the "
+                "projectile inside the box"
+            )
+
+
+def grains_fit(values: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """The box takes at least four grains in each direction."""
+    least = 4 * values["grain_diameter"]
+    sides = ["box_length", "box_width"] + ([] if values["grains"] else ["bed_depth"])
+    for side in sides:
+        if values[side] < least:
+            flag = "--" + side.replace("_", "-")
+            raise OptionError(
+                f"{flag} = {values[side]}: must be at least {least:.4g} m, four grain diameters"
+            )
+
+
+def friction_is_known(values: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """The texts for friction and its moisture factor can be read."""
+    from grainfall.contacts import friction_curve
+
+    try:
+        friction_curve(values["friction"])
+    except ValueError as error:
+        raise OptionError(_naming("--friction", values["friction"], error)) from None
+    try:
+        friction_curve(values["friction"], values["moisture_factor"])
+    except ValueError as error:
+        raise OptionError(_naming("--moisture-factor", values["moisture_factor"], error)) from None
+
+
+def _naming(flag: str, value: Any, error: Exception) -> str:
+    """The message with the option's name in front, unless it is there already."""
+    text = str(error)
+    return text if text.startswith(flag) else f"{flag} = {value!r}: {text}"
+
+
+CHECKS = (only_one_speed, projectile_fits, grains_fit, friction_is_known)

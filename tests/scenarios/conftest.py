@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A small drop run in the process of the tests."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from scenario_script import SMALL
+
+from grainfall.drop import drop_test
+
+
+@pytest.fixture(scope="session")
+def bed_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One store of beds for all tests, so that each bed is settled once."""
+    return tmp_path_factory.mktemp("beds")
+
+
+@pytest.fixture
+def small_drop(bed_cache: Path, tmp_path: Path) -> Callable[..., tuple[dict[str, Any], Path]]:
+    """Run a small drop in this process: summary and results folder."""
+
+    def run(folder: str = "drop", **changes: Any) -> tuple[dict[str, Any], Path]:
+        output = tmp_path / folder
+        options = {**SMALL, "no_plots": True, "bed_cache": str(bed_cache), **changes}
+        return drop_test(output=str(output), quiet=True, **options), output
+
+    return run
