@@ -22,11 +22,13 @@ if(YADE_SOURCE_DIR)
                             "give the root of a YADE source tree or leave the option empty.")
     endif()
     find_package(MPI COMPONENTS CXX)
+    find_package(Boost 1.74 REQUIRED COMPONENTS log thread)
     target_include_directories(yade_interface SYSTEM INTERFACE "${YADE_SOURCE_DIR}" ${MPI_CXX_INCLUDE_DIRS})
     # The options that Debian's build of YADE was compiled with; they decide the layout of its classes.
     target_compile_definitions(yade_interface INTERFACE
         YADE_REAL_BIT=64 YADE_REAL_DEC=15 YADE_OPENMP YADE_MPI YADE_OPENGL YADE_FEM PARTIALSAT
         YADE_BOOST_LOG BOOST_LOG_DYN_LINK MAX_LOG_LEVEL=5)
+    target_link_libraries(yade_interface INTERFACE Boost::log Boost::thread)
 else()
     target_include_directories(yade_interface SYSTEM INTERFACE "${PROJECT_SOURCE_DIR}/yade-headers")
 endif()

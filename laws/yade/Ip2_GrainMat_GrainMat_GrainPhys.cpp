@@ -41,8 +41,9 @@ Real contact_mass(const Body& body, Scene* scene) {
 } // namespace
 
 void GrainPair::validate() const {
-    if (first.empty()) gl::reject("GrainPair.first", "''", "the label of a material");
-    if (second.empty()) gl::reject("GrainPair.second", "''", "the label of a material");
+    // Neither label: an object that unpickling has made and is about to fill.
+    if (first.empty() && !second.empty()) gl::reject("GrainPair.first", "''", "the label of a material");
+    if (second.empty() && !first.empty()) gl::reject("GrainPair.second", "''", "the label of a material");
     if (!std::isnan(restitution))
         gl::require_between("GrainPair.restitution", restitution, gl::smallest_restitution, 1);
     if (friction) friction->validate();

@@ -9,7 +9,7 @@ from typing import Any
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scenarios" / "drop_test.py"
 
-# The half-scale replica on 8 mm grains that are soft enough for a step of 90 microseconds.
+# The half-scale replica on 8 mm grains that are soft enough for a step of 44 microseconds.
 SMALL = {
     "preset": "m70-half",
     "grain_diameter": 8e-3,

@@ -77,6 +77,21 @@ def test_the_recorded_force_is_the_change_of_momentum(small_drop):
     np.testing.assert_allclose(impulse, change, atol=1e-11 * mass * 3.46)
 
 
+def test_the_impulse_of_the_trace_does_not_depend_on_how_often_it_is_recorded(small_drop):
+    # Rows hold the mean force since the row before, so that hits between two rows are counted. The last
+    # row of the coarse trace lies somewhere in the fine one; up to there both sum the same forces.
+    _, fine_folder = small_drop("fine", record_interval=1e-9)
+    _, coarse_folder = small_drop("coarse", record_interval=5e-4)
+    fine, coarse = read_trace(fine_folder), read_trace(coarse_folder)
+    assert len(coarse["time_s"]) < len(fine["time_s"]) / 5
+    within = fine["time_s"] <= coarse["time_s"][-1] * (1 + 1e-12)
+    step = fine["time_s"][1] - fine["time_s"][0]
+    spans = np.diff(coarse["time_s"], prepend=coarse["time_s"][0] - step)
+    impulse = np.sum(coarse["force_N"] * spans)
+    assert impulse > 0
+    assert np.sum(fine["force_N"][within]) * step == pytest.approx(impulse, rel=1e-9)
+
+
 def test_nose_shaft_and_base_make_up_the_whole_force(small_drop):
     _, folder = small_drop()
     trace = read_trace(folder)
@@ -84,11 +99,11 @@ def test_nose_shaft_and_base_make_up_the_whole_force(small_drop):
     np.testing.assert_allclose(zones, trace["force_N"], rtol=1e-12, atol=1e-12)
 
 
-def test_energy_is_accounted_for_within_two_per_cent(small_drop):
-    # Velocities are known half a step from positions: with an acceleration of 100 g over half a step of
-    # 90 microseconds the kinetic energy is off by v a dt / v^2 = 2.5 %, at the peak of the force alone.
+def test_energy_is_accounted_for_within_one_per_cent(small_drop):
+    # Velocities are known half a step from positions. At the peak, 70 g on 3 m/s, half a step of 44
+    # microseconds is a dt / v = 1 % of the kinetic energy; on average over the impact far less.
     summary, _ = small_drop(duration=0.01)
-    assert 0 <= summary["energy_residual_relative"] < 0.02
+    assert 0 <= summary["energy_residual_relative"] < 0.01
 
 
 def test_the_same_seed_gives_the_same_drop_and_another_seed_another(small_drop):

@@ -20,7 +20,7 @@ def rows(folder) -> np.ndarray:
 
 def test_a_resumed_run_follows_the_one_that_was_never_stopped(small_drop):
     # A loaded scene adds forces in another order, so the runs differ by rounding, 1e-16 of the forces in
-    # each step; collisions of grains amplify that, over the 60 steps here to far less than 1e-9.
+    # each step; collisions of grains amplify that, over the 110 steps here to far less than 1e-9.
     whole, whole_folder = small_drop("whole", duration=0.009)
     _, folder = small_drop("parts", duration=0.004)
     resumed = drop_test(resume=str(folder), duration=0.009, no_plots=True, quiet=True)

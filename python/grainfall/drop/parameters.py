@@ -65,7 +65,7 @@ PRESETS: dict[str, dict[str, Any]] = {
 }
 
 # For `make demo`: grains that 2 slow cores can push through a whole drop in two minutes.
-QUICK = {"grain_diameter": 12e-3, "young": 2e8, "bed_depth": 0.2, "vtk_interval": 0.02}
+QUICK = {"grain_diameter": 12e-3, "young": 2e8, "bed_depth": 0.2}
 
 RUN = (
     Option("preset", "m70-full", "which drop", kind=str, choices=tuple(PRESETS)),
@@ -91,7 +91,7 @@ RUN = (
     Option(
         "rest_speed",
         0.01,
-        "the projectile is at rest when slower than this for 5 ms",
+        "the run ends when the nose sinks slower than this over 10 ms",
         "m/s",
         low=0,
         runtime=True,
@@ -109,7 +109,7 @@ RUN = (
     ),
     Option(
         "vtk_interval",
-        0.01,
+        0.005,
         "simulated time between two sets of files for ParaView, 0 for none",
         "s",
         low=0,

@@ -27,12 +27,13 @@ def drop_results(trace: Mapping[str, np.ndarray], mass: float, rest_speed: float
     mass : float
         Of the projectile [kg].
     rest_speed : float
-        The projectile has stopped when it first moves slower than this [m/s].
+        The nose has stopped when, over one frame, it sinks slower than this [m/s].
 
     Returns
     -------
     dict
-        Times count from the first touch. ``peak_force_N`` is the largest mean over one row of
+        Times count from the first touch. ``depth_m`` is the deepest the nose got; a projectile that then topples
+        ends a little higher, at ``final_depth_m``. ``peak_force_N`` is the largest mean over one row of
         the trace; ``peak_force_camera_N`` that of the mean over one frame of the report's camera (389 1/s).
     """
     start = touch_time(trace)
@@ -40,14 +41,16 @@ def drop_results(trace: Mapping[str, np.ndarray], mass: float, rest_speed: float
     t = trace["time_s"][after] - start
     force = trace["force_N"][after]
     speed = trace["velocity_m_per_s"][after]
+    depth = trace["depth_m"][after]
     smooth = camera_average(t, force)
     peak, smooth_peak = int(np.argmax(force)), int(np.argmax(smooth))
-    slow = np.flatnonzero(speed < rest_speed)
+    sinking = camera_average(t, np.gradient(depth, t)) if len(t) > 1 else np.array([np.inf])
+    slow = np.flatnonzero(sinking < rest_speed)
     stop = float(t[slow[0]]) if len(slow) else None
-    depth = trace["depth_m"]
     return {
-        "depth_m": float(depth[-1]),
-        "largest_depth_m": float(depth.max()),
+        "touch_time_s": start,
+        "depth_m": float(depth.max()),
+        "final_depth_m": float(depth[-1]),
         "impact_speed_m_per_s": float(speed[0]),
         "final_speed_m_per_s": float(speed[-1]),
         "peak_force_N": float(force[peak]),

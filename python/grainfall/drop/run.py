@@ -28,8 +28,8 @@ from grainfall.materials import check_scene
 from grainfall.projectile_mesh import outline
 
 STATE, PARAMETERS, BED, EARLIER = "state.yade.gz", "parameters.json", "bed.h5", "sessions.json"
-#: How long the projectile has to be slow to count as at rest [s].
-REST_DURATION = 5e-3
+#: The nose has come to rest when it sinks slower than the rest speed over this time [s].
+REST_DURATION = 10e-3
 #: Wall time between two looks at the running simulation [s].
 POLL = 0.02
 
@@ -190,16 +190,20 @@ class DropRun:
             )
 
     def _touch(self) -> float | None:
+        """Time of the first touch [s]; None before it."""
         trace = self.trace.arrays()
-        return touch_time(trace) if len(trace["time_s"]) else None
+        return touch_time(trace) if np.any(trace["contacts"] > 0) else None
 
     def _at_rest(self) -> bool:
-        """Has the projectile, once in contact, been slow for long enough?"""
-        rows = self.trace.rows
-        recent = [row for row in rows[-200:] if row[0] >= O.time - REST_DURATION]
-        touched = bool(rows) and rows[-1][8] > 0
-        slow = all(abs(row[2]) < self.parameters["rest_speed"] for row in recent)
-        return touched and len(recent) > 1 and slow and O.time > REST_DURATION
+        """Has the nose, once in contact, stopped sinking? Toppling afterwards is not waited for."""
+        now = self.trace.rows[-1] if self.trace.rows else None
+        if now is None or now[8] == 0:
+            return False
+        before = next(
+            (row for row in reversed(self.trace.rows) if row[0] <= now[0] - REST_DURATION), None
+        )
+        in_contact = before is not None and before[8] > 0
+        return in_contact and now[1] - before[1] < self.parameters["rest_speed"] * REST_DURATION
 
     def _state(self) -> str:
         if not self.trace.rows:

@@ -45,7 +45,7 @@ class Snapshots:
         (folder / "vtk").mkdir(parents=True, exist_ok=True)
 
     def write(self, touch: float | None = None) -> None:
-        """Write the present state; `touch` is the time of first touch, from which the picture counts."""
+        """Write the present state; its time counts from `touch`, and is negative before the first touch."""
         name = f"{round(O.time * 1e6):09d}us"
         points, forces = self._contacts()
         state = O.bodies[self.grains + WALL_COUNT].state
@@ -53,7 +53,7 @@ class Snapshots:
         orientation = state.ori
         np.savez_compressed(
             self.folder / "snapshots" / f"{name}.npz",
-            time=O.time - (touch or 0.0),
+            time=-1.0 if touch is None else O.time - touch,
             centres=np.array([b.state.pos for b in bodies], dtype=float),
             radii=np.array([b.shape.radius for b in bodies], dtype=float),
             contact_points=points,

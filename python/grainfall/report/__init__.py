@@ -12,7 +12,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from grainfall.report.bed_picture import draw_bed, load_snapshot
+from grainfall.report.bed_picture import Snapshot, draw_bed, load_snapshot
 from grainfall.report.html_page import write_page
 from grainfall.report.plots import draw_trace, read_trace
 
@@ -42,15 +42,16 @@ def write_report(folder: str | Path) -> list[Path]:
     trace = read_trace(folder / "trace.csv")
 
     pictures = [draw_trace(trace, summary, folder / "plots" / "trace.png")]
-    snapshots = sorted((folder / "snapshots").glob("*.npz"))
-    if snapshots:
-        strongest = _snapshot_nearest(snapshots, summary.get("peak_force_time_s"))
-        pictures.append(draw_bed(load_snapshot(strongest), folder / "bed_forces.png"))
+    chosen = _snapshot_near(folder, summary.get("peak_force_camera_time_s"))
+    if chosen is not None:
+        pictures.append(draw_bed(chosen, folder / "bed_forces.png"))
     return [*pictures, write_page(summary, pictures, folder / "summary.html")]
 
 
-def _snapshot_nearest(snapshots: list[Path], time: float | None) -> Path:
-    """The snapshot next to the moment of peak force; the last one where that is not known."""
-    if time is None:
-        return snapshots[-1]
-    return min(snapshots, key=lambda path: abs(load_snapshot(path).time - time))
+def _snapshot_near(folder: Path, time: float | None) -> Snapshot | None:
+    """The snapshot next to this time after the first touch, the last one where no time is known."""
+    snapshots = [load_snapshot(path) for path in sorted((folder / "snapshots").glob("*.npz"))]
+    if not snapshots or time is None:
+        return snapshots[-1] if snapshots else None
+    touching = [s for s in snapshots if s.time > 0] or snapshots
+    return min(touching, key=lambda snapshot: abs(snapshot.time - time))

@@ -19,7 +19,7 @@ class Snapshot:
     Parameters
     ----------
     time : float
-        [s]
+        Since the first touch [s]; negative before it.
     centres, radii : numpy.ndarray, shapes (n, 3) and (n,)
         Grains [m].
     contact_points : numpy.ndarray, shape (c, 3, 2)
@@ -110,7 +110,8 @@ def draw_bed(snapshot: Snapshot, path: str | Path, thickness: float | None = Non
     axes.set_ylim(-0.01 * length, _top(s))
     axes.set_xlabel("x [m]")
     axes.set_ylabel("z [m]")
-    axes.set_title(f"contact forces at {s.time * 1e3:.1f} ms, slice of {thickness * 1e3:.0f} mm")
+    moment = f"{s.time * 1e3:.1f} ms after first touch" if s.time >= 0 else "before first touch"
+    axes.set_title(f"contact forces {moment}, slice of {thickness * 1e3:.0f} mm")
     if coloured is not None:
         figure.colorbar(coloured, ax=axes, label="contact force [N]", shrink=0.85)
     path = Path(path)

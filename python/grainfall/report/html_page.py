@@ -21,9 +21,9 @@ body { margin: 0 auto; max-width: 62rem; padding: 2rem 1.2rem 4rem; background: 
        font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; }
 h1 { font-size: 1.6rem; margin: 0 0 .2rem; } h2 { font-size: 1.15rem; margin: 2.2rem 0 .6rem; }
 .lead { color: var(--soft); margin: 0 0 1.4rem; }
-.results { display: grid; grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr)); gap: .8rem; }
+.results { display: grid; grid-template-columns: repeat(auto-fit, minmax(10.5rem, 1fr)); gap: .8rem; }
 .results div { border: 1px solid var(--line); border-radius: 6px; padding: .7rem .9rem; }
-.results b { display: block; font-size: 1.35rem; color: var(--mark); }
+.results b { display: block; font-size: 1.3rem; white-space: nowrap; color: var(--mark); }
 .results span { color: var(--soft); font-size: .85rem; }
 img { max-width: 100%; height: auto; border-radius: 6px; }
 table { border-collapse: collapse; width: 100%; font-size: .92rem; }
@@ -36,7 +36,7 @@ _RESULTS = (
     ("depth_m", "depth"),
     ("impact_speed_m_per_s", "impact speed"),
     ("peak_force_camera_N", "peak force, camera mean"),
-    ("peak_force_N", "peak force, single sample"),
+    ("peak_force_N", "peak force, one row of the trace"),
     ("stop_time_s", "time to stop"),
     ("energy_residual_relative", "energy residual"),
 )

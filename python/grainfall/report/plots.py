@@ -54,15 +54,23 @@ def draw_trace(
     """Draw velocity, force and depth over time, one above the other, and return the file's path."""
     figure = Figure(figsize=(8, 8.5), layout="constrained")
     velocity, force, depth = figure.subplots(3, 1, sharex=True)
-    milliseconds = trace["time_s"] * 1e3
+    milliseconds = (trace["time_s"] - summary.get("touch_time_s", 0.0)) * 1e3
 
     velocity.plot(milliseconds, trace["velocity_m_per_s"], color=BLUE)
     velocity.set_ylabel("velocity, downwards [m/s]")
     velocity.axhline(0, color=GREY, linewidth=0.6)
 
-    force.plot(milliseconds, trace["force_N"], color=GREY, linewidth=0.5, label="each sample")
+    force.plot(
+        milliseconds,
+        trace["force_N"],
+        color=GREY,
+        linewidth=0.5,
+        label="mean over a row of the trace",
+    )
     smooth = camera_average(trace["time_s"], trace["force_N"])
-    force.plot(milliseconds, smooth, color=ORANGE, linewidth=1.8, label="mean over a 389 1/s frame")
+    force.plot(
+        milliseconds, smooth, color=ORANGE, linewidth=1.8, label="mean over a frame at 389 1/s"
+    )
     for name, colour in (("nose_force_N", GREEN), ("shaft_force_N", BLUE)):
         if name in trace and np.any(trace[name]):
             label = name.split("_")[0] + " (mean)"
