@@ -6,7 +6,7 @@ CMAKE_OPTIONS ?=
 DEMO_OUTPUT ?= results/demo
 DEMO_OPTIONS ?=
 
-.PHONY: all deps configure build demo test bench install uninstall format format-check clean
+.PHONY: all deps configure build package demo test bench install uninstall format format-check clean
 
 all: build
 
@@ -20,9 +20,12 @@ configure: deps
 build: configure
 	cmake --build $(BUILD)
 
-# The whole chain on real input, in a few minutes: the 57 mm replica dropped on coarse sand.
-demo: configure
+# What users run, without the tests.
+package: configure
 	cmake --build $(BUILD) --target grainfall_core grainfall_package
+
+# The whole chain on real input, in a few minutes: the 57 mm replica dropped on coarse sand.
+demo: package
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j2 -n -x scenarios/drop_test.py \
 	  --preset m70-full --quick --output $(DEMO_OUTPUT) $(DEMO_OPTIONS)
 
@@ -33,7 +36,7 @@ bench: build
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/law_cost.py
 	/usr/bin/python3 benchmarks/instruction_count.py $(BUILD)
 
-install: build
+install: package
 	cmake --install $(BUILD)
 
 uninstall:

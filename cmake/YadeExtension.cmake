@@ -52,6 +52,12 @@ set_target_properties(grainfall_core PROPERTIES
 
 file(GLOB_RECURSE package_sources CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/python"
      "${PROJECT_SOURCE_DIR}/python/grainfall/*.py")
+# Copies of files that are gone from the sources would be installed too.
+file(GLOB_RECURSE copies RELATIVE "${PROJECT_BINARY_DIR}/python" "${package_dir}/*.py")
+list(REMOVE_ITEM copies ${package_sources} grainfall/_build_info.py)
+foreach(stale IN LISTS copies)
+    file(REMOVE "${PROJECT_BINARY_DIR}/python/${stale}")
+endforeach()
 foreach(source IN LISTS package_sources)
     add_custom_command(OUTPUT "${PROJECT_BINARY_DIR}/python/${source}"
         COMMAND "${CMAKE_COMMAND}" -E copy "${PROJECT_SOURCE_DIR}/python/${source}"
@@ -61,15 +67,16 @@ foreach(source IN LISTS package_sources)
 endforeach()
 add_custom_target(grainfall_package ALL DEPENDS ${package_copies})
 
-# Where /usr/bin/python3 looks without being told: dist-packages under /usr/local, python3/dist-packages under /usr.
-if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
-    set(default_python_dir "lib/python3/dist-packages")
-else()
-    set(default_python_dir "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages")
+# Where /usr/bin/python3 looks without being told: python3/dist-packages under /usr, else dist-packages of its version.
+set(GRAINFALL_PYTHON_DIR "" CACHE PATH "folder for the Python package, under the prefix; empty: where Debian's Python looks")
+set(python_dir "${GRAINFALL_PYTHON_DIR}")
+if(NOT python_dir AND CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    set(python_dir "lib/python3/dist-packages")
+elseif(NOT python_dir)
+    set(python_dir "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages")
 endif()
-set(GRAINFALL_PYTHON_DIR "${default_python_dir}" CACHE PATH "folder for the Python package, under the prefix")
-install(DIRECTORY "${PROJECT_BINARY_DIR}/python/grainfall" DESTINATION "${GRAINFALL_PYTHON_DIR}"
+install(DIRECTORY "${PROJECT_BINARY_DIR}/python/grainfall" DESTINATION "${python_dir}"
         FILES_MATCHING PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
-install(TARGETS grainfall_core LIBRARY DESTINATION "${GRAINFALL_PYTHON_DIR}/grainfall")
+install(TARGETS grainfall_core LIBRARY DESTINATION "${python_dir}/grainfall")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenarios" DESTINATION share/grainfall FILES_MATCHING PATTERN "*.py")
 install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION share/doc/grainfall)

@@ -37,6 +37,16 @@ BAD = [
 ]
 
 
+@pytest.fixture(autouse=True)
+def no_run_may_begin(monkeypatch):
+    """Fail at once, instead of settling a whole bed, where a bad value gets through."""
+
+    def began(*arguments):
+        raise AssertionError("a bad value got through and the run began")
+
+    monkeypatch.setattr("grainfall.drop.run.obtain_bed", began)
+
+
 @pytest.mark.parametrize(("name", "value", "message"), BAD)
 def test_a_bad_value_is_named_with_what_is_allowed(name, value, message, tmp_path):
     output = tmp_path / "drop"
