@@ -34,14 +34,19 @@ def bounds() -> dict[str, float]:
     grain_density = GRAIN_MASS / (math.pi / 6 * GRAIN_DIAMETER**3)
     constrained = 2 * SHEAR_MODULUS * (1 - POISSON) / (1 - 2 * POISSON)
     wave_speed = math.sqrt(constrained / grain_density)
-    rigid_on_grain = 2 * SHEAR_MODULUS / (1 - POISSON)  # effective modulus against a rigid projectile
+    rigid_on_grain = (
+        2 * SHEAR_MODULUS / (1 - POISSON)
+    )  # effective modulus against a rigid projectile
     one_grain = hertz_peak(rigid_on_grain, GRAIN_DIAMETER / 2, GRAIN_MASS, SPEED)
     under_nose = 0.6 * area / (math.pi / 4 * GRAIN_DIAMETER**2)
     return {
         "momentum of the projectile [N s]": MASS * SPEED,
         "time in which the reported force stops it [s]": MASS * SPEED / REPORTED,
         "distance covered in that time [m]": 0.5 * SPEED * MASS * SPEED / REPORTED,
-        "flat face on a solid block of grain material, rho c A v [N]": grain_density * wave_speed * area * SPEED,
+        "flat face on a solid block of grain material, rho c A v [N]": grain_density
+        * wave_speed
+        * area
+        * SPEED,
         "one free grain struck at full speed, elastic [N]": one_grain,
         "all grains under the full section struck at once [N]": one_grain * under_nose,
         "force that stops it in 0.1 s [N]": MASS * SPEED / 0.1 + MASS * 9.81,

@@ -5,8 +5,8 @@
 
 namespace yade {
 
-YADE_PLUGIN((MoistureFactor)(FrictionCurve)(ConstantFriction)(PowerLawFriction)(ExponentialFriction)(AsperityFriction)(
-    TableFriction)(CombinedFriction));
+YADE_PLUGIN((
+    MoistureFactor)(FrictionCurve)(ConstantFriction)(PowerLawFriction)(ExponentialFriction)(AsperityFriction)(TableFriction)(CombinedFriction));
 
 // Defined here so that virtual tables and Python registration are compiled once.
 MoistureFactor::~MoistureFactor() = default;
@@ -22,14 +22,20 @@ namespace py = boost::python;
 namespace gl = grainfall::laws;
 
 namespace {
-gl::friction::MoistureFactor kernel_of(const MoistureFactor& factor) { return { factor.moistures, factor.factors }; }
+gl::friction::MoistureFactor kernel_of(const MoistureFactor& factor) {
+    return {factor.moistures, factor.factors};
+}
 } // namespace
 
-void MoistureFactor::validate() const { kernel_of(*this).validate(); }
-Real MoistureFactor::factor(Real moisture) const { return kernel_of(*this).at(moisture); }
+void MoistureFactor::validate() const {
+    kernel_of(*this).validate();
+}
+Real MoistureFactor::factor(Real moisture) const {
+    return kernel_of(*this).at(moisture);
+}
 
 void MoistureFactor::pyHandleCustomCtorArgs(py::tuple& args, py::dict& keywords) {
-    take_positional(args, keywords, { "moistures", "factors" });
+    take_positional(args, keywords, {"moistures", "factors"});
 }
 
 gl::friction::Any FrictionCurve::at_moisture(Real) const {
@@ -37,7 +43,9 @@ gl::friction::Any FrictionCurve::at_moisture(Real) const {
                                 "ExponentialFriction, AsperityFriction, TableFriction or CombinedFriction");
 }
 
-bool FrictionCurve::depends_on_load() const { return form_of(at_moisture(0)) != FrictionForm::constant; }
+bool FrictionCurve::depends_on_load() const {
+    return form_of(at_moisture(0)) != FrictionForm::constant;
+}
 
 ResolvedFriction FrictionCurve::resolve(Real moisture, Real load_scale) const {
     const Real factor = moistureFactor ? moistureFactor->factor(moisture) : 1;
@@ -52,8 +60,9 @@ Real FrictionCurve::coefficient(Real load, Real moisture) const {
 }
 
 void TableFriction::pyHandleCustomCtorArgs(py::tuple& args, py::dict& keywords) {
-    take_positional(args, keywords, { "loads", "moistures", "mu" });
-    if (!keywords.has_key("mu")) return;
+    take_positional(args, keywords, {"loads", "moistures", "mu"});
+    if (!keywords.has_key("mu"))
+        return;
     const py::object rows(keywords["mu"]);
     py::list flat;
     const py::ssize_t columns = keywords.has_key("moistures") ? py::len(keywords["moistures"]) : 1;
@@ -80,16 +89,18 @@ bool CombinedFriction::depends_on_moisture() const {
 }
 
 void CombinedFriction::validate() const {
-    if (!first) gl::reject("CombinedFriction.first", "None", "a friction curve or a number");
-    if (!second) gl::reject("CombinedFriction.second", "None", "a friction curve or a number");
+    if (!first)
+        gl::reject("CombinedFriction.first", "None", "a friction curve or a number");
+    if (!second)
+        gl::reject("CombinedFriction.second", "None", "a friction curve or a number");
     gl::combination_rule_from_name("CombinedFriction.rule", rule);
     first->validate();
     second->validate();
 }
 
 void CombinedFriction::pyHandleCustomCtorArgs(py::tuple& args, py::dict& keywords) {
-    take_positional(args, keywords, { "first", "second", "rule" });
-    for (const char* name : { "first", "second" })
+    take_positional(args, keywords, {"first", "second", "rule"});
+    for (const char* name : {"first", "second"})
         if (keywords.has_key(name))
             keywords[name] = to_friction_curve(keywords[name], std::string("CombinedFriction.") + name);
 }
@@ -102,7 +113,8 @@ shared_ptr<FrictionCurve> make_constant_friction(Real coefficient) {
 }
 
 py::object to_friction_curve(const py::object& value, const std::string& attribute) {
-    if (value.is_none() || py::extract<shared_ptr<FrictionCurve>>(value).check()) return value;
+    if (value.is_none() || py::extract<shared_ptr<FrictionCurve>>(value).check())
+        return value;
     const py::extract<Real> number(value);
     if (PyBool_Check(value.ptr()) || !number.check())
         gl::reject(attribute, py::extract<std::string>(py::str(value)),
@@ -114,8 +126,8 @@ py::object to_friction_curve(const py::object& value, const std::string& attribu
 void take_positional(py::tuple& args, py::dict& keywords, const std::vector<const char*>& names) {
     const auto given = static_cast<std::size_t>(py::len(args));
     if (given > names.size())
-        throw std::invalid_argument("at most " + std::to_string(names.size()) + " positional arguments, got " +
-                                    std::to_string(given));
+        throw std::invalid_argument("at most " + std::to_string(names.size()) +
+                                    " positional arguments, got " + std::to_string(given));
     for (std::size_t i = 0; i < given; ++i) {
         if (keywords.has_key(names[i]))
             throw std::invalid_argument(std::string("argument '") + names[i] + "' given twice");

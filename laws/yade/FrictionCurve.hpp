@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Friction curves as objects that a script makes, names, saves and hands to materials.
 //
-// They hold parameters and check them; the mathematics is in laws/friction/. When a contact is made its curve is
-// resolved into plain numbers, with the contact's moisture and load scale folded in, so that neither costs anything
-// in the contact loop.
+// They hold parameters and check them; the mathematics is in laws/friction/. When a contact is made its curve
+// is resolved into plain numbers, with the contact's moisture and load scale folded in, so that neither costs
+// anything in the contact loop.
 #pragma once
 
 #include <laws/friction/any.hpp>

@@ -9,12 +9,12 @@ namespace yade {
 class ConstantFriction : public FrictionCurve {
 public:
     virtual ~ConstantFriction();
-    grainfall::laws::friction::Constant kernel() const { return { mu }; }
+    grainfall::laws::friction::Constant kernel() const { return {mu}; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
     void postLoad(ConstantFriction&) { validate(); }
     void pyHandleCustomCtorArgs(boost::python::tuple& args, boost::python::dict& keywords) override {
-        take_positional(args, keywords, { "mu" });
+        take_positional(args, keywords, {"mu"});
     }
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ConstantFriction, FrictionCurve, "Friction that does not depend on the load. Positional: mu.",
@@ -30,12 +30,12 @@ REGISTER_SERIALIZABLE(ConstantFriction);
 class PowerLawFriction : public FrictionCurve {
 public:
     virtual ~PowerLawFriction();
-    grainfall::laws::friction::PowerLaw kernel() const { return { muRef, loadRef, exponent, muMin, muMax }; }
+    grainfall::laws::friction::PowerLaw kernel() const { return {muRef, loadRef, exponent, muMin, muMax}; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
     void postLoad(PowerLawFriction&) { validate(); }
     void pyHandleCustomCtorArgs(boost::python::tuple& args, boost::python::dict& keywords) override {
-        take_positional(args, keywords, { "muRef", "loadRef", "exponent", "muMin", "muMax" });
+        take_positional(args, keywords, {"muRef", "loadRef", "exponent", "muMin", "muMax"});
     }
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PowerLawFriction, FrictionCurve,
@@ -59,12 +59,12 @@ REGISTER_SERIALIZABLE(PowerLawFriction);
 class ExponentialFriction : public FrictionCurve {
 public:
     virtual ~ExponentialFriction();
-    grainfall::laws::friction::Exponential kernel() const { return { mu0, muInf, loadScale }; }
+    grainfall::laws::friction::Exponential kernel() const { return {mu0, muInf, loadScale}; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
     void postLoad(ExponentialFriction&) { validate(); }
     void pyHandleCustomCtorArgs(boost::python::tuple& args, boost::python::dict& keywords) override {
-        take_positional(args, keywords, { "mu0", "muInf", "loadScale" });
+        take_positional(args, keywords, {"mu0", "muInf", "loadScale"});
     }
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ExponentialFriction, FrictionCurve,
@@ -85,12 +85,12 @@ REGISTER_SERIALIZABLE(ExponentialFriction);
 class AsperityFriction : public FrictionCurve {
 public:
     virtual ~AsperityFriction();
-    grainfall::laws::friction::Asperity kernel() const { return { alpha, c, muMax, muMin }; }
+    grainfall::laws::friction::Asperity kernel() const { return {alpha, c, muMax, muMin}; }
     grainfall::laws::friction::Any at_moisture(Real) const override { return kernel(); }
     void validate() const override { kernel().validate(); }
     void postLoad(AsperityFriction&) { validate(); }
     void pyHandleCustomCtorArgs(boost::python::tuple& args, boost::python::dict& keywords) override {
-        take_positional(args, keywords, { "alpha", "c", "muMax", "muMin" });
+        take_positional(args, keywords, {"alpha", "c", "muMax", "muMin"});
     }
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AsperityFriction, FrictionCurve,
@@ -112,7 +112,7 @@ REGISTER_SERIALIZABLE(AsperityFriction);
 class TableFriction : public FrictionCurve {
 public:
     virtual ~TableFriction();
-    grainfall::laws::friction::TableGrid kernel() const { return { loads, moistures, mu }; }
+    grainfall::laws::friction::TableGrid kernel() const { return {loads, moistures, mu}; }
     grainfall::laws::friction::Any at_moisture(Real moisture) const override {
         return kernel().at_moisture(moisture);
     }

@@ -12,14 +12,15 @@ GrainMat::~GrainMat() = default;
 
 void GrainMat::validate() const {
     namespace gl = grainfall::laws;
-    gl::validate(gl::ElasticMaterial { young, poisson }, "GrainMat");
+    gl::validate(gl::ElasticMaterial{young, poisson}, "GrainMat");
     gl::require_positive("GrainMat.density", density);
     if (!(frictionAngle >= 0 && frictionAngle < M_PI / 2))
         gl::reject("GrainMat.frictionAngle", frictionAngle, "in [0, pi/2) (radians)");
     gl::require_between("GrainMat.restitution", restitution, gl::smallest_restitution, 1);
     gl::require_between("GrainMat.gravimetricMoisture", gravimetricMoisture, 0, 1);
     gl::require_not_negative("GrainMat.referenceRadius", referenceRadius);
-    if (friction) friction->validate();
+    if (friction)
+        friction->validate();
 }
 
 shared_ptr<FrictionCurve> GrainMat::friction_curve() const {

@@ -17,8 +17,8 @@ public:
     /// (then tangensOfFrictionAngle says it all).
     const grainfall::laws::friction::Any& curve() const { return *resolved_; }
 
-    /// Form of the resolved curve. Where that is constant, keeps the number in tangensOfFrictionAngle and lets the
-    /// curve go, so that the contact carries nothing that it does not read.
+    /// Form of the resolved curve. Where that is constant, keeps the number in tangensOfFrictionAngle and
+    /// lets the curve go, so that the contact carries nothing that it does not read.
     FrictionForm simplified_friction();
 
     /// Rebuilds what is not saved.

@@ -26,7 +26,8 @@ namespace {
 /// Radius of curvature [m] that a body shows to a contact.
 Real contact_radius(const Body& body, Real geometry_radius, Real density) {
     const std::string shape = body.shape->getClassName();
-    if (shape == "Wall" || shape == "Box" || shape == "Facet") return gl::infinite;
+    if (shape == "Wall" || shape == "Box" || shape == "Facet")
+        return gl::infinite;
     if (shape == "LevelSet" || shape == "Polyhedra")
         return std::cbrt(3 * body.state->mass / (4 * M_PI * density)); // the sphere of equal volume
     return geometry_radius;
@@ -42,15 +43,18 @@ Real contact_mass(const Body& body, Scene* scene) {
 
 void GrainPair::validate() const {
     // Neither label: an object that unpickling has made and is about to fill.
-    if (first.empty() && !second.empty()) gl::reject("GrainPair.first", "''", "the label of a material");
-    if (second.empty() && !first.empty()) gl::reject("GrainPair.second", "''", "the label of a material");
+    if (first.empty() && !second.empty())
+        gl::reject("GrainPair.first", "''", "the label of a material");
+    if (second.empty() && !first.empty())
+        gl::reject("GrainPair.second", "''", "the label of a material");
     if (!std::isnan(restitution))
         gl::require_between("GrainPair.restitution", restitution, gl::smallest_restitution, 1);
-    if (friction) friction->validate();
+    if (friction)
+        friction->validate();
 }
 
 void GrainPair::pyHandleCustomCtorArgs(boost::python::tuple& args, boost::python::dict& keywords) {
-    take_positional(args, keywords, { "first", "second" });
+    take_positional(args, keywords, {"first", "second"});
     if (keywords.has_key("friction"))
         keywords["friction"] = to_friction_curve(keywords["friction"], "GrainPair.friction");
 }
@@ -62,23 +66,29 @@ void Ip2_GrainMat_GrainMat_GrainPhys::validate() const {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto* pair = dynamic_cast<const GrainPair*>(pairs[i].get());
         const std::string name = owner + "pairs[" + std::to_string(i) + "]";
-        if (!pair) gl::reject(name, pairs[i] ? pairs[i]->getClassName() : "None", "a GrainPair");
+        if (!pair)
+            gl::reject(name, pairs[i] ? pairs[i]->getClassName() : "None", "a GrainPair");
         pair->validate();
     }
 }
 
-const GrainPair* Ip2_GrainMat_GrainMat_GrainPhys::explicit_pair(const GrainMat& m1, const GrainMat& m2) const {
+const GrainPair* Ip2_GrainMat_GrainMat_GrainPhys::explicit_pair(const GrainMat& m1,
+                                                                const GrainMat& m2) const {
     for (const auto& entry : pairs) {
         const auto& pair = static_cast<const GrainPair&>(*entry);
-        if (pair.joins(m1.label, m2.label)) return &pair;
+        if (pair.joins(m1.label, m2.label))
+            return &pair;
     }
     return nullptr;
 }
 
-shared_ptr<FrictionCurve> Ip2_GrainMat_GrainMat_GrainPhys::pair_friction(const GrainMat& m1, const GrainMat& m2,
+shared_ptr<FrictionCurve> Ip2_GrainMat_GrainMat_GrainPhys::pair_friction(const GrainMat& m1,
+                                                                         const GrainMat& m2,
                                                                          const GrainPair* pair) const {
-    if (pair && pair->friction) return pair->friction;
-    if (&m1 == &m2 || (m1.friction && m1.friction == m2.friction)) return m1.friction_curve();
+    if (pair && pair->friction)
+        return pair->friction;
+    if (&m1 == &m2 || (m1.friction && m1.friction == m2.friction))
+        return m1.friction_curve();
     auto combined = shared_ptr<CombinedFriction>(new CombinedFriction);
     combined->first = m1.friction_curve();
     combined->second = m2.friction_curve();
@@ -88,14 +98,16 @@ shared_ptr<FrictionCurve> Ip2_GrainMat_GrainMat_GrainPhys::pair_friction(const G
 
 Real Ip2_GrainMat_GrainMat_GrainPhys::pair_restitution(const GrainMat& m1, const GrainMat& m2,
                                                        const GrainPair* pair) const {
-    if (pair && !std::isnan(pair->restitution)) return pair->restitution;
+    if (pair && !std::isnan(pair->restitution))
+        return pair->restitution;
     return gl::combine(gl::combination_rule_from_name("restitutionRule", restitutionRule), m1.restitution,
                        m2.restitution);
 }
 
 void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2,
                                          const shared_ptr<Interaction>& interaction) {
-    if (interaction->phys) return;
+    if (interaction->phys)
+        return;
     const auto& mat1 = static_cast<const GrainMat&>(*m1);
     const auto& mat2 = static_cast<const GrainMat&>(*m2);
     const auto& geom = static_cast<const GenericSpheresContact&>(*interaction->geom);
@@ -104,8 +116,8 @@ void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const s
 
     const Real radius1 = contact_radius(body1, geom.refR1, mat1.density);
     const Real radius2 = contact_radius(body2, geom.refR2, mat2.density);
-    const gl::ElasticMaterial elastic1 { mat1.young, mat1.poisson };
-    const gl::ElasticMaterial elastic2 { mat2.young, mat2.poisson };
+    const gl::ElasticMaterial elastic1{mat1.young, mat1.poisson};
+    const gl::ElasticMaterial elastic2{mat2.young, mat2.poisson};
     const GrainPair* pair = explicit_pair(mat1, mat2);
     const Real restitution = pair_restitution(mat1, mat2, pair);
     const gl::ContactParameters parameters = gl::contact_parameters(
@@ -125,7 +137,7 @@ void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const s
     phys->resolve_friction();
 
     const FrictionForm form = phys->simplified_friction();
-    const DashpotForm dashpot = restitution == 1       ? DashpotForm::none
+    const DashpotForm dashpot = restitution == 1    ? DashpotForm::none
                                 : dashpotAttraction ? DashpotForm::attractive
                                                     : DashpotForm::repulsive;
     phys->contactClass = ContactClass(form, dashpot).index;

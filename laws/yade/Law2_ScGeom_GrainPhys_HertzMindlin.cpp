@@ -44,22 +44,26 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
                                  : tangentialLaw == "none"   ? frictionless_kernels()
                                                              : incremental_kernels();
     const KernelTables::Pair& pair = normalLaw == "report" ? tables.report : tables.hertz;
-    kernels_ = { &pair.plain, &pair.booking };
+    kernels_ = {&pair.plain, &pair.booking};
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real rescaling) {
     EnergyTracker& energy = *scene->energy;
     if (!energy_named_.load(std::memory_order_acquire)) {
-        // All names first and by one thread: adding a name may move the accumulators under another thread's feet.
+        // All names first and by one thread: adding a name may move the accumulators under another thread's
+        // feet.
         const std::lock_guard<std::mutex> lock(energy_mutex_);
         energy.findId("grainFriction", frictionIx, false, true);
         energy.findId("grainViscous", viscousIx, false, true);
         energy.findId("grainRescaling", rescalingIx, false, true);
         energy_named_.store(true, std::memory_order_release);
     }
-    if (friction != 0) energy.add(friction, "grainFriction", frictionIx, false);
-    if (viscous != 0) energy.add(viscous, "grainViscous", viscousIx, false);
-    if (rescaling != 0) energy.add(rescaling, "grainRescaling", rescalingIx, false);
+    if (friction != 0)
+        energy.add(friction, "grainFriction", frictionIx, false);
+    if (viscous != 0)
+        energy.add(viscous, "grainViscous", viscousIx, false);
+    if (rescaling != 0)
+        energy.add(rescaling, "grainRescaling", rescalingIx, false);
 }
 
 boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy() const {
@@ -67,14 +71,16 @@ boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy() const {
     Real normal = 0;
     Real shear = 0;
     for (const auto& interaction : *Omega::instance().getScene()->interactions) {
-        if (!interaction->isReal()) continue;
+        if (!interaction->isReal())
+            continue;
         const auto* phys = dynamic_cast<const GrainPhys*>(interaction->phys.get());
         const auto* geom = dynamic_cast<const ScGeom*>(interaction->geom.get());
-        if (!phys || !geom) continue;
+        if (!phys || !geom)
+            continue;
         // The overlap at which the forces of the last step acted: ScGeom may have moved on.
         const Real overlap = std::max(Real(0), geom->penetrationDepth);
-        normal += (report ? grainfall::laws::ReportNormal::factor : 1.0) * 0.4 * phys->normalCoefficient * overlap *
-                  overlap * std::sqrt(overlap);
+        normal += (report ? grainfall::laws::ReportNormal::factor : 1.0) * 0.4 * phys->normalCoefficient *
+                  overlap * overlap * std::sqrt(overlap);
         shear += grainfall::laws::shear_elastic_energy(phys->shearElastic, phys->ks);
     }
     boost::python::dict energies;

@@ -68,7 +68,7 @@ private:
     // Plain and energy-booking kernels; go() picks by O.trackEnergy.
     std::array<const KernelTable*, 2> kernels_ = {};
     std::mutex energy_mutex_;
-    std::atomic<bool> energy_named_ { false };
+    std::atomic<bool> energy_named_{false};
 
     void choose_kernels();
 };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Attributes that refuse a bad value and keep the good one.
 //
-// YADE's own setters store first and ask later, and those of inherited attributes do not ask at all, so that a
-// negative modulus is noticed inside the interaction loop, where an exception ends the process. A class that
-// names its attributes here gets, in Python, setters that call its validate() and roll back when it throws.
+// YADE's own setters store first and ask later, and those of inherited attributes do not ask at all, so that
+// a negative modulus is noticed inside the interaction loop, where an exception ends the process. A class
+// that names its attributes here gets, in Python, setters that call its validate() and roll back when it
+// throws.
 #pragma once
 
 #include <string>
@@ -26,7 +27,8 @@ public:
             Type previous = std::exchange(self.*member, value);
             try {
                 self.validate();
-                if (accepted) (self.*accepted)();
+                if (accepted)
+                    (self.*accepted)();
             } catch (...) {
                 self.*member = std::move(previous);
                 throw;

@@ -15,8 +15,8 @@ namespace yade {
 
 using Law = Law2_ScGeom_GrainPhys_HertzMindlin;
 
-/// The kernels of one tangential law, for each normal law plain and with energy booking. Each tangential law is a
-/// translation unit of its own (contact_kernels_*.cpp), to keep compilation short.
+/// The kernels of one tangential law, for each normal law plain and with energy booking. Each tangential law
+/// is a translation unit of its own (contact_kernels_*.cpp), to keep compilation short.
 struct KernelTables {
     struct Pair {
         Law::KernelTable plain;
@@ -55,11 +55,12 @@ inline void apply_force(Law& law, const Vector3r& force_on_2, const ScGeom& geom
     forces.addTorque(id2, (geom.contactPoint - state2.pos - shift2).cross(force_on_2));
 }
 
-/// Constant friction is a number that every YADE law keeps in the same place; the other curves are held by the contact.
+/// Constant friction is a number that every YADE law keeps in the same place; the other curves are held by
+/// the contact.
 template <class Friction>
 decltype(auto) friction_of(const GrainPhys& phys) {
     if constexpr (std::is_same_v<Friction, gl::friction::Constant>)
-        return gl::friction::Constant { phys.tangensOfFrictionAngle };
+        return gl::friction::Constant{phys.tangensOfFrictionAngle};
     else if constexpr (std::is_same_v<Friction, gl::friction::Any>)
         return (phys.curve());
     else
@@ -78,7 +79,8 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     const State& state1 = *Body::byId(contact.getId1(), law.scene)->state;
     const State& state2 = *Body::byId(contact.getId2(), law.scene)->state;
     Vector3r shift2 = Vector3r::Zero();
-    if (scene.isPeriodic) shift2 = scene.cell->intrShiftPos(contact.cellDist);
+    if (scene.isPeriodic)
+        shift2 = scene.cell->intrShiftPos(contact.cellDist);
 
     gl::ContactGeometry geometry;
     geometry.overlap = geom.penetrationDepth;
@@ -89,21 +91,23 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     geometry.time_step = scene.dt;
     if constexpr (Damping::active || Energy::active) {
         Vector3r shift_velocity = Vector3r::Zero();
-        if (scene.isPeriodic) shift_velocity = scene.cell->intrShiftVel(contact.cellDist);
+        if (scene.isPeriodic)
+            shift_velocity = scene.cell->intrShiftVel(contact.cellDist);
         geometry.normal_velocity =
             geom.getIncidentVel(&state1, &state2, scene.dt, shift2, shift_velocity, false).dot(geom.normal);
     }
 
-    const gl::ContactParameters parameters { phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
-                                             phys.shearDamping };
-    gl::ContactMemory memory { phys.shearElastic, phys.ks };
+    const gl::ContactParameters parameters{phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
+                                           phys.shearDamping};
+    gl::ContactMemory memory{phys.shearElastic, phys.ks};
 
     Energy book;
-    if constexpr (Energy::active) recall_viscous_forces<Normal>(phys, geom.normal, book);
-    const gl::ContactForce force =
-        gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>::step(
-            geometry, parameters, friction_of<Friction>(phys), memory, book);
-    if constexpr (Energy::active) law.book(book.friction, book.viscous, book.rescaling);
+    if constexpr (Energy::active)
+        recall_viscous_forces<Normal>(phys, geom.normal, book);
+    const gl::ContactForce force = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>::step(
+        geometry, parameters, friction_of<Friction>(phys), memory, book);
+    if constexpr (Energy::active)
+        law.book(book.friction, book.viscous, book.rescaling);
 
     phys.kn = force.normal_stiffness;
     phys.ks = force.shear_stiffness;
@@ -135,7 +139,7 @@ struct TableMaker {
         table[ContactClass(friction, dashpot).index] = &step<Normal, Tangential, Damping, Read, Energy>;
     }
     static Law::KernelTable table() {
-        Law::KernelTable result {};
+        Law::KernelTable result{};
         fill<gl::NoDamping>(result, DashpotForm::none);
         fill<gl::RepulsiveDashpot>(result, DashpotForm::repulsive);
         fill<gl::AttractiveDashpot>(result, DashpotForm::attractive);
@@ -145,13 +149,13 @@ struct TableMaker {
 
 template <class Normal, class Tangential>
 KernelTables::Pair both() {
-    return { TableMaker<Normal, Tangential, gl::NoEnergy>::table(),
-             TableMaker<Normal, Tangential, gl::DissipationBook>::table() };
+    return {TableMaker<Normal, Tangential, gl::NoEnergy>::table(),
+            TableMaker<Normal, Tangential, gl::DissipationBook>::table()};
 }
 
 template <class Tangential>
 const KernelTables& make_tables() {
-    static const KernelTables tables { both<gl::Hertz, Tangential>(), both<gl::ReportNormal, Tangential>() };
+    static const KernelTables tables{both<gl::Hertz, Tangential>(), both<gl::ReportNormal, Tangential>()};
     return tables;
 }
 

@@ -3,6 +3,8 @@
 
 namespace yade {
 
-const KernelTables& frictionless_kernels() { return kernels::make_tables<grainfall::laws::NoTangential>(); }
+const KernelTables& frictionless_kernels() {
+    return kernels::make_tables<grainfall::laws::NoTangential>();
+}
 
 } // namespace yade

@@ -3,6 +3,8 @@
 
 namespace yade {
 
-const KernelTables& incremental_kernels() { return kernels::make_tables<grainfall::laws::IncrementalTangential>(); }
+const KernelTables& incremental_kernels() {
+    return kernels::make_tables<grainfall::laws::IncrementalTangential>();
+}
 
 } // namespace yade

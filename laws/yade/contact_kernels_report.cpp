@@ -3,6 +3,8 @@
 
 namespace yade {
 
-const KernelTables& report_kernels() { return kernels::make_tables<grainfall::laws::ReportTangential>(); }
+const KernelTables& report_kernels() {
+    return kernels::make_tables<grainfall::laws::ReportTangential>();
+}
 
 } // namespace yade

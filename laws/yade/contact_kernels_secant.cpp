@@ -3,6 +3,8 @@
 
 namespace yade {
 
-const KernelTables& secant_kernels() { return kernels::make_tables<grainfall::laws::SecantTangential>(); }
+const KernelTables& secant_kernels() {
+    return kernels::make_tables<grainfall::laws::SecantTangential>();
+}
 
 } // namespace yade

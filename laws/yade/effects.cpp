@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <laws/yade/effects.hpp>
 
-#include <laws/yade/GrainMat.hpp>
 #include <laws/yade/ContactClass.hpp>
+#include <laws/yade/GrainMat.hpp>
+#include <laws/yade/GrainPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
+#include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
 #include <core/Scene.hpp>
 
+#include <array>
 #include <sstream>
 
 namespace yade {
@@ -54,13 +58,38 @@ private:
 
 void add_material(EffectList& list, const GrainMat& material, const std::string& name, bool frictional) {
     const auto curve = material.friction_curve();
-    if (material.restitution < 1) list.add("viscous damping", name + ": restitution " + number(material.restitution));
-    if (!frictional) return;
+    if (material.restitution < 1)
+        list.add("viscous damping", name + ": restitution " + number(material.restitution));
+    if (!frictional)
+        return;
     list.add(name_of(form_of(curve->at_moisture(material.gravimetricMoisture))), name);
     if (material.gravimetricMoisture > 0 && curve->depends_on_moisture())
-        list.add("moisture in friction", name + ": gravimetricMoisture " + number(material.gravimetricMoisture));
+        list.add("moisture in friction",
+                 name + ": gravimetricMoisture " + number(material.gravimetricMoisture));
     if (material.referenceRadius > 0 && curve->depends_on_load())
         list.add("load scaling", name + ": referenceRadius " + number(material.referenceRadius) + " m");
+}
+
+/// What the contacts of this moment run, which includes curves of explicit pairs and combinations.
+void add_contacts(EffectList& list, const Scene& scene, bool frictional) {
+    std::array<int, ContactClass::count> counts{};
+    for (const auto& interaction : *scene.interactions) {
+        if (!interaction->isReal())
+            continue;
+        if (const auto* phys = dynamic_cast<const GrainPhys*>(interaction->phys.get()))
+            ++counts[static_cast<std::size_t>(phys->contactClass)];
+    }
+    for (int index = 0; index < ContactClass::count; ++index) {
+        const int contacts = counts[static_cast<std::size_t>(index)];
+        if (contacts == 0)
+            continue;
+        const std::string reason = std::to_string(contacts) + " contacts now";
+        const ContactClass kind(index);
+        if (frictional)
+            list.add(name_of(kind.friction()), reason);
+        if (kind.dashpot() != DashpotForm::none)
+            list.add("viscous damping", reason);
+    }
 }
 
 } // namespace
@@ -69,14 +98,19 @@ boost::python::dict describe_effects(const Law2_ScGeom_GrainPhys_HertzMindlin& l
     EffectList list;
     list.add("normal force: " + law.normalLaw, "normalLaw");
     const bool frictional = law.tangentialLaw != "none";
-    if (frictional) list.add("tangential force: " + law.tangentialLaw, "tangentialLaw");
+    if (frictional)
+        list.add("tangential force: " + law.tangentialLaw, "tangentialLaw");
     for (const auto& material : scene.materials) {
         const auto* grain = dynamic_cast<const GrainMat*>(material.get());
-        if (!grain) continue;
-        const std::string name = grain->label.empty() ? "material " + std::to_string(grain->id) : grain->label;
+        if (!grain)
+            continue;
+        const std::string name =
+            grain->label.empty() ? "material " + std::to_string(grain->id) : grain->label;
         add_material(list, *grain, name, frictional);
     }
-    if (scene.trackEnergy) list.add("energy booking", "O.trackEnergy");
+    add_contacts(list, scene, frictional);
+    if (scene.trackEnergy)
+        list.add("energy booking", "O.trackEnergy");
     return list.result();
 }
 

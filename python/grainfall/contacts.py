@@ -170,23 +170,3 @@ def rayleigh_step(radius: float, density: float, young: float, poisson: float) -
     """
     shear_modulus = young / (2 * (1 + poisson))
     return math.pi * radius * math.sqrt(density / shear_modulus) / (0.1631 * poisson + 0.8766)
-
-
-def safe_step(safety: float, radius: float, sand: Sand) -> float:
-    """Time step [s]: `safety` times the Rayleigh step, shortened for the dashpot.
-
-    A dashpot of damping ratio z lowers the critical step of the leapfrog scheme by sqrt(1 + z^2) - z. Here
-    z is 2.5 times the ratio of one contact, for a grain has several and turns more easily than it moves; with
-    0.45 of the result beds of restitution 0.1 to 1 were found stable, with more they were not.
-
-    Parameters
-    ----------
-    safety : float
-        Fraction of the critical step.
-    radius : float
-        Smallest grain radius [m].
-    """
-    logarithm = math.log(sand.restitution)
-    ratio = 2.5 * abs(logarithm) / math.hypot(logarithm, math.pi)
-    damped = math.hypot(1, ratio) - ratio
-    return safety * damped * rayleigh_step(radius, sand.density, sand.young, sand.poisson)
