@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from .projectile_outlines import (
@@ -66,14 +67,81 @@ PRESETS: dict[str, Projectile] = {
 }
 
 
+#: Outlines that a text can name, with the parameters they take.
+OUTLINES = {
+    "ogive": (ogive, ("diameter", "length", "calibre_radius_head", "tip_radius")),
+    "cone": (cone, ("diameter", "length", "nose_length", "tip_radius")),
+    "hemisphere": (hemisphere, ("diameter", "length")),
+    "flat-cylinder": (flat_cylinder, ("diameter", "length")),
+    "sphere": (sphere, ("diameter",)),
+}
+
+
 def projectile(spec: str | Projectile) -> Projectile:
-    """The preset of this name ('_' and '-' alike), or `spec` itself if it is a Projectile."""
+    """A projectile from its description.
+
+    Parameters
+    ----------
+    spec : str or Projectile
+        Name of a preset ('_' and '-' alike); an outline with its lengths in m, such as
+        ``'cone:diameter=0.057,length=0.17,nose_length=0.06'``; a CSV file with a vertex
+        ``z, r[, bulge]`` of the generating curve in each line (see ``SolidOfRevolution.profile``);
+        or a Projectile, which is returned.
+
+    Raises
+    ------
+    ValueError
+        The text is none of these, naming what is allowed.
+    """
     if isinstance(spec, Projectile):
         return spec
-    name = str(spec).lower().replace("_", "-")
-    if name not in PRESETS:
-        raise ValueError(f"projectile = {spec!r}; allowed: {', '.join(PRESETS)}, or a Projectile")
-    return PRESETS[name]
+    text = str(spec).strip()
+    if text.lower().endswith(".csv"):
+        return _from_file(Path(text))
+    word, _, parameters = text.partition(":")
+    name = word.lower().replace("_", "-")
+    if name in PRESETS and not parameters:
+        return PRESETS[name]
+    if name in OUTLINES:
+        return _from_outline(name, parameters)
+    raise ValueError(
+        f"projectile = {spec!r}; allowed: {', '.join(PRESETS)}, one of {', '.join(OUTLINES)} with "
+        ":NAME=METRES,... , a CSV file of vertices, or a Projectile"
+    )
+
+
+def _from_outline(name: str, parameters: str) -> Projectile:
+    """An outline function called with the parameters of a text."""
+    function, allowed = OUTLINES[name]
+    values = {}
+    for item in filter(None, parameters.split(",")):
+        key, _, value = item.partition("=")
+        try:
+            values[key.strip()] = float(value)
+        except ValueError:
+            raise ValueError(f"projectile = {name}: {item!r}; allowed: NAME=NUMBER") from None
+    unknown = [key for key in values if key not in allowed]
+    if unknown:
+        raise ValueError(f"projectile = {name}: {unknown[0]!r}; allowed: {', '.join(allowed)}")
+    try:
+        return function(**values)
+    except TypeError:
+        raise ValueError(f"projectile = {name}: needs {', '.join(allowed)}") from None
+
+
+def _from_file(path: Path) -> Projectile:
+    """A generating curve read from a file."""
+    try:
+        rows = [line.split("#")[0].split(",") for line in path.read_text().splitlines()]
+        vertices = [[float(number) for number in row] for row in rows if row != [""]]
+    except (OSError, ValueError) as error:
+        raise ValueError(f"projectile = {str(path)!r}: {error}") from None
+    if len(vertices) < 2 or any(len(vertex) not in (2, 3) for vertex in vertices):
+        raise ValueError(
+            f"projectile = {str(path)!r}; allowed: lines of z, r[, bulge], two at least"
+        )
+    profile = tuple((v[0], v[1], v[2] if len(v) == 3 else 0.0) for v in vertices)
+    return Projectile(name=path.stem, profile=profile, source=str(path))
 
 
 def pointing(direction: Sequence[float]) -> Any:

@@ -29,9 +29,7 @@ def projectile_fits(values: dict[str, Any], given: Mapping[str, Any]) -> None:
     try:
         outline = projectile(values["profile"])
     except ValueError as error:
-        raise OptionError(
-            f"--profile = {values['profile']!r}: must be a preset ({error})"
-        ) from None
+        raise OptionError(f"--profile = {values['profile']!r}: {error}") from None
     diameter = 2 * max(radius for _, radius, _ in outline.profile)
     for option, side in (("--offset-x", "box_length"), ("--offset-y", "box_width")):
         if values[side] <= diameter:

@@ -179,7 +179,12 @@ SAND = (
 )
 
 PROJECTILE = (
-    Option("profile", "m70_full", "shape: a preset of grainfall.projectiles", kind=str),
+    Option(
+        "profile",
+        "m70_full",
+        "shape: m70_full, m70_half, table1, OUTLINE:NAME=METRES,... (ogive, cone, hemisphere, flat-cylinder, sphere) or a CSV file of vertices z,r,bulge",
+        kind=str,
+    ),
     Option("mass", 0.40964, "mass of the projectile", "kg", low=0, open_low=True),
     Option("drop_height", None, "height of free fall above the surface", "m", low=0, high=100),
     Option(
