@@ -50,7 +50,7 @@ def outline(shape: Any) -> np.ndarray:
     (n, 2) float
         Points (z, r) [m].
     """
-    vertices, _, _ = shape.mesh(4)
+    vertices, _, _ = shape.mesh(96)
     rings = dict.fromkeys((round(z, 12), round(float(np.hypot(x, y)), 12)) for x, y, z in vertices)
     return np.array(list(rings), dtype=float)
 

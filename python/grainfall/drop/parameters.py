@@ -10,9 +10,6 @@ from grainfall.drop.options import Option, OptionTable
 
 GRAVITY = 9.81  # m/s2
 
-# Report MR-2629: frames a second of the camera of section 3.3.
-CAMERA_FRAMES_PER_SECOND = 389.0
-
 # Section 3.3: box 30 cm long, 15 cm wide, 30 cm high; replicas dropped 24 in (0.61 m) on ASTM 20-30 sand,
 # whose grains of 0.72 mm (mean of its sieves 0.60 and 0.85 mm) are coarsened here to a number that can be run.
 _CRREL_DROP = {
@@ -182,7 +179,8 @@ PROJECTILE = (
     Option(
         "profile",
         "m70_full",
-        "shape: m70_full, m70_half, table1, OUTLINE:NAME=METRES,... (ogive, cone, hemisphere, flat-cylinder, sphere) or a CSV file of vertices z,r,bulge",
+        "shape: m70_full, m70_half, table1; ogive, cone, hemisphere, flat-cylinder or sphere with "
+        ":NAME=METRES,... ; or a CSV file of vertices z,r,bulge",
         kind=str,
     ),
     Option("mass", 0.40964, "mass of the projectile", "kg", low=0, open_low=True),

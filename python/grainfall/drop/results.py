@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from grainfall.report.plots import camera_average
+from grainfall.report.plots import CAMERA_RATE_PER_S, camera_average
 
 
 def touch_time(trace: Mapping[str, np.ndarray]) -> float:
@@ -69,7 +69,8 @@ def stages(t: np.ndarray, smooth: np.ndarray, stop: float | None) -> dict[str, A
     """The three stages of MR-2629, section 4.2, from the frame-averaged force.
 
     Stage 1, velocity rolls off: until the force first passes half its peak. Stage 2, deceleration
-    rises to its maximum: until the peak. Stage 3: from the peak until rest.
+    rises to its maximum: until the peak. Stage 3: from the peak until rest. They count as visible
+    if each lasts at least one frame of the report's camera.
 
     Parameters
     ----------
@@ -81,11 +82,12 @@ def stages(t: np.ndarray, smooth: np.ndarray, stop: float | None) -> dict[str, A
     peak = int(np.argmax(smooth))
     half = int(np.flatnonzero(smooth[: peak + 1] >= 0.5 * smooth[peak])[0])
     end = stop if stop is not None else float(t[-1])
+    frame = 1 / CAMERA_RATE_PER_S
     return {
         "stage_2_start_s": float(t[half]),
         "stage_3_start_s": float(t[peak]),
         "stage_3_end_s": end,
-        "three_stages_visible": bool(0 < t[half] < t[peak] < end),
+        "three_stages_visible": bool(np.min(np.diff([0.0, t[half], t[peak], end])) >= frame),
     }
 
 
