@@ -27,7 +27,7 @@ from grainfall.drop.summary import Clock, make_summary, print_summary
 from grainfall.materials import check_scene
 from grainfall.projectile_mesh import outline
 
-STATE, PARAMETERS, BED, EARLIER = "state.yade.gz", "parameters.json", "bed.h5", "sessions.json"
+STATE, PARAMETERS, BED, EARLIER = "state.yade.gz", "parameters.json", "bed.h5", "earlier_parts.json"
 #: The nose has come to rest when it sinks slower than the rest speed over this time [s].
 REST_DURATION = 10e-3
 #: Wall time between two looks at the running simulation [s].
@@ -91,7 +91,7 @@ class DropRun:
         self.resumed = resumed
         self.clock = Clock()
         self.bed_was_cached = False
-        #: What earlier sessions of a resumed run spent and saw.
+        #: What the earlier parts of a resumed run spent and saw.
         self.earlier: dict[str, Any] = {"wall_seconds": 0.0, "price": {}, "largest_overlap": 0.0}
         self.interrupted = False
 
