@@ -95,8 +95,11 @@ def draw_bed(snapshot: Snapshot, path: str | Path, thickness: float | None = Non
     middle = s.position[1]
     if thickness is None:
         thickness = 6 * float(s.radii.mean())
-    figure = Figure(figsize=(8.5, 7), layout="constrained")
+    height = 7.0
+    width = height * 1.06 * float(s.box[0]) / _top(s) + 2.2  # the axes keep the scene's proportions
+    figure = Figure(figsize=(max(width, 5.0), height + 0.6), layout="constrained")
     axes = figure.subplots()
+    axes.locator_params(axis="x", nbins=5)
     _draw_grains(axes, s, middle)
     coloured = _draw_forces(axes, s, middle, thickness)
     _draw_projectile(axes, s)
