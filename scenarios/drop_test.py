@@ -44,6 +44,11 @@ def main() -> int:
     except (OptionError, ValueError) as error:
         print(f"drop_test.py: error: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print(
+            "drop_test.py: stopped while the bed was prepared: nothing to resume", file=sys.stderr
+        )
+        return 130
     return 130 if summary["interrupted"] else 0
 
 

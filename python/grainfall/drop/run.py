@@ -82,6 +82,13 @@ def _resolve(given: Mapping[str, Any]) -> tuple[Path, dict[str, Any]]:
     return folder, parameters
 
 
+def _wait() -> None:
+    """Wait for the simulation to stop; an error in one of its engines is raised here."""
+    while O.running:
+        time.sleep(POLL)
+    O.wait()
+
+
 class DropRun:
     """One run and its results folder."""
 
@@ -172,6 +179,7 @@ class DropRun:
                 progress.update(O.time / p["duration"], self._state())
         except KeyboardInterrupt:
             O.pause()
+            _wait()
             self.interrupted = True
         else:
             progress.update(1.0, self._state())
@@ -182,8 +190,7 @@ class DropRun:
     def _advance(self, steps: int) -> None:
         """Run so many steps; polled rather than waited for, so that Ctrl-C gets through."""
         O.run(steps)
-        while O.running:
-            time.sleep(POLL)
+        _wait()
         if self.trace.rows and not np.isfinite(self.trace.rows[-1][1]):
             raise FloatingPointError(
                 "the projectile's position is not a number: reduce --dt-safety or --time-step"
