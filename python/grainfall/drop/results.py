@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from grainfall.report.plots import CAMERA_RATE_PER_S, camera_average
+from grainfall.report.plots import CAMERA_RATE_PER_S, camera_average, camera_force
 
 
 def touch_time(trace: Mapping[str, np.ndarray]) -> float:
@@ -42,7 +42,7 @@ def drop_results(trace: Mapping[str, np.ndarray], mass: float, rest_speed: float
     force = trace["force_N"][after]
     speed = trace["velocity_m_per_s"][after]
     depth = trace["depth_m"][after]
-    smooth = camera_average(t, force)
+    smooth = camera_force(trace["time_s"], trace["force_N"])[after]
     peak, smooth_peak = int(np.argmax(force)), int(np.argmax(smooth))
     sinking = camera_average(t, np.gradient(depth, t)) if len(t) > 1 else np.array([np.inf])
     slow = np.flatnonzero(sinking < rest_speed)

@@ -48,6 +48,25 @@ def camera_average(
     return (np.interp(high, time, integral) - np.interp(low, time, integral)) / (high - low)
 
 
+def camera_force(time: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Frame mean of a force [N] that was zero before its first row: the projectile was in flight.
+
+    Parameters
+    ----------
+    time, force : numpy.ndarray, shape (n,)
+        Time [s], increasing, and force [N].
+
+    Returns
+    -------
+    numpy.ndarray, shape (n,)
+    """
+    if len(time) < 2:
+        return force.copy()
+    flight = time[0] - np.array([1 / CAMERA_RATE_PER_S, 0.5 * (time[1] - time[0])])
+    padded = camera_average(np.concatenate((flight, time)), np.concatenate(([0.0, 0.0], force)))
+    return padded[2:]
+
+
 def draw_trace(
     trace: Mapping[str, np.ndarray], summary: Mapping[str, Any], path: str | Path
 ) -> Path:
@@ -67,14 +86,14 @@ def draw_trace(
         linewidth=0.5,
         label="mean over a row of the trace",
     )
-    smooth = camera_average(trace["time_s"], trace["force_N"])
+    smooth = camera_force(trace["time_s"], trace["force_N"])
     force.plot(
         milliseconds, smooth, color=ORANGE, linewidth=1.8, label="mean over a frame at 389 1/s"
     )
     for name, colour in (("nose_force_N", GREEN), ("shaft_force_N", BLUE)):
         if name in trace and np.any(trace[name]):
             label = name.split("_")[0] + " (mean)"
-            part = camera_average(trace["time_s"], trace[name])
+            part = camera_force(trace["time_s"], trace[name])
             force.plot(milliseconds, part, color=colour, linewidth=1.0, linestyle="--", label=label)
     force.set_ylabel("force on the projectile,\nupwards [N]")
     # A single grain's kick would squeeze everything else against the axis.
