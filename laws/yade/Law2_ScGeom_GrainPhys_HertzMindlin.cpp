@@ -3,9 +3,9 @@
 
 #include <laws/yade/contact_kernels.hpp>
 #include <laws/yade/effects.hpp>
+#include <laws/yade/stored_energy.hpp>
 
 #include <core/EnergyTracker.hpp>
-#include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
 
 namespace yade {
@@ -67,25 +67,10 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real 
 }
 
 boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy() const {
-    const bool report = normalLaw == "report";
-    Real normal = 0;
-    Real shear = 0;
-    for (const auto& interaction : *Omega::instance().getScene()->interactions) {
-        if (!interaction->isReal())
-            continue;
-        const auto* phys = dynamic_cast<const GrainPhys*>(interaction->phys.get());
-        const auto* geom = dynamic_cast<const ScGeom*>(interaction->geom.get());
-        if (!phys || !geom)
-            continue;
-        // The overlap at which the forces of the last step acted: ScGeom may have moved on.
-        const Real overlap = std::max(Real(0), geom->penetrationDepth);
-        normal += (report ? grainfall::laws::ReportNormal::factor : 1.0) * 0.4 * phys->normalCoefficient *
-                  overlap * overlap * std::sqrt(overlap);
-        shear += grainfall::laws::shear_elastic_energy(phys->shearElastic, phys->ks);
-    }
+    const StoredEnergy stored = stored_energy(*Omega::instance().getScene());
     boost::python::dict energies;
-    energies["normal"] = normal;
-    energies["shear"] = shear;
+    energies["normal"] = stored.normal;
+    energies["shear"] = stored.shear;
     return energies;
 }
 

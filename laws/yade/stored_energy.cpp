@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <laws/yade/stored_energy.hpp>
+
+#include <laws/tangential_force.hpp>
+#include <laws/yade/GrainPhys.hpp>
+
+#include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Scene.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+namespace yade {
+
+StoredEnergy stored_energy(const Interaction& contact) {
+    StoredEnergy energy;
+    if (!contact.isReal())
+        return energy;
+    const auto* phys = dynamic_cast<const GrainPhys*>(contact.phys.get());
+    const auto* geom = dynamic_cast<const ScGeom*>(contact.geom.get());
+    if (!phys || !geom || geom->penetrationDepth <= 0)
+        return energy;
+    // F = 2/3 kn d and E = 2/5 F d for a force that goes with d^1.5, whatever its coefficient.
+    const Real overlap = geom->penetrationDepth;
+    energy.normal = 4.0 / 15.0 * phys->kn * overlap * overlap;
+    energy.shear = grainfall::laws::shear_elastic_energy(phys->shearElastic, phys->ks);
+    return energy;
+}
+
+StoredEnergy stored_energy(const Scene& scene) {
+    StoredEnergy sum;
+    for (const auto& contact : *scene.interactions) {
+        const StoredEnergy one = stored_energy(*contact);
+        sum.normal += one.normal;
+        sum.shear += one.shear;
+    }
+    return sum;
+}
+
+} // namespace yade
