@@ -30,7 +30,7 @@ demo: package
 	  --preset m70-full --quick --output $(DEMO_OUTPUT) $(DEMO_OPTIONS)
 
 test: build
-	ctest --test-dir $(BUILD) --output-on-failure
+	ctest --test-dir $(BUILD) --output-on-failure -j$(shell nproc)
 
 bench: build
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/law_cost.py

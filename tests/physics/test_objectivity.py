@@ -21,14 +21,14 @@ SHEAR = np.array([2e-6, 1e-6, 0.0])  # m
 STEPS = 2000
 
 
-def sheared_pair() -> tuple[int, int]:
+def sheared_pair(law: str) -> tuple[int, int]:
     """Two equal spheres, one above the other, pressed on and then sheared; both are led."""
     O.materials.append(SOLID.material(frictionAngle=1.4))
     lower = cs.add_sphere((0, 0, 0), RADIUS, 0, fixed=True)
     upper = cs.add_sphere((0, 0, 2 * RADIUS - OVERLAP), RADIUS, 0, fixed=True)
     O.dt = 1e-6
     O.bodies[upper].state.vel = tuple(SHEAR / (50 * O.dt))
-    cs.set_engines(cs.grain_law())
+    cs.set_engines(cs.grain_law(tangentialLaw=law))
     O.run(51, True)
     O.bodies[upper].state.vel = (0, 0, 0)
     O.run(2, True)
@@ -43,7 +43,7 @@ def normal_and_shear(lower: int, upper: int) -> tuple[np.ndarray, np.ndarray]:
     return normal, force
 
 
-def turn(lower: int, upper: int, axis: np.ndarray, angle: float) -> None:
+def turn(law: str, lower: int, upper: int, axis: np.ndarray, angle: float) -> None:
     """Turn the pair about `axis`, a unit vector square to its branch, by `angle` [rad] in STEPS
     steps.
 
@@ -67,14 +67,18 @@ def turn(lower: int, upper: int, axis: np.ndarray, angle: float) -> None:
             state.vel = tuple(chord / O.dt)
             state.angVel = tuple(axis * math.sin(step) / O.dt)
 
-    cs.set_engines(cs.grain_law(), lead)
+    cs.set_engines(cs.grain_law(tangentialLaw=law), lead)
     O.run(STEPS + 1, True)
 
 
+LAWS = pytest.mark.parametrize("law", ["incremental", "secant", "report"])
+
+
+@LAWS
 @pytest.mark.parametrize("turns", [0.25, 1.0, 3.0])
 @pytest.mark.parametrize("direction", ["along the shear", "across the shear", "oblique"])
-def test_force_turns_with_a_pair_that_is_turned_about_an_axis_square_to_it(direction, turns):
-    lower, upper = sheared_pair()
+def test_force_turns_with_a_pair_that_is_turned_about_an_axis_square_to_it(direction, turns, law):
+    lower, upper = sheared_pair(law)
     normal, before = normal_and_shear(lower, upper)
     along = before / np.linalg.norm(before)
     across = np.cross(normal, along)
@@ -82,7 +86,7 @@ def test_force_turns_with_a_pair_that_is_turned_about_an_axis_square_to_it(direc
         direction, (along + across) / math.sqrt(2)
     )
     angle = 2 * math.pi * turns
-    turn(lower, upper, axis, angle)
+    turn(law, lower, upper, axis, angle)
     _, after = normal_and_shear(lower, upper)
     expected = (
         before * math.cos(angle)
@@ -93,9 +97,10 @@ def test_force_turns_with_a_pair_that_is_turned_about_an_axis_square_to_it(direc
     assert after == pytest.approx(expected, abs=1e-8 * np.linalg.norm(before))
 
 
+@LAWS
 @pytest.mark.parametrize("angle", [0.5, math.pi / 2, 2 * math.pi])
-def test_force_turns_with_a_pair_that_spins_about_its_own_normal(angle):
-    lower, upper = sheared_pair()
+def test_force_turns_with_a_pair_that_spins_about_its_own_normal(angle, law):
+    lower, upper = sheared_pair(law)
     normal, before = normal_and_shear(lower, upper)
     for i in (lower, upper):
         O.bodies[i].state.angVel = tuple(normal * angle / (STEPS * O.dt))
