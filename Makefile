@@ -6,7 +6,7 @@ CMAKE_OPTIONS ?=
 DEMO_OUTPUT ?= results/demo
 DEMO_OPTIONS ?=
 
-.PHONY: all deps configure build package demo test bench install uninstall format format-check clean
+.PHONY: all deps configure build package demo test bench accuracy install uninstall format format-check clean
 
 all: build
 
@@ -35,6 +35,10 @@ test: build
 bench: build
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/law_cost.py
 	/usr/bin/python3 benchmarks/instruction_count.py $(BUILD)
+
+# Error against time for every knob that buys accuracy: docs/accuracy.md.
+accuracy: package
+	PYTHONPATH=$(abspath $(BUILD))/python:benchmarks yade -j1 -n -x benchmarks/accuracy_cost/run.py
 
 install: package
 	cmake --install $(BUILD)

@@ -11,13 +11,14 @@
 
 At rest means: kinetic energy per grain below 2e-4 of the energy m g d of lifting a grain by its diameter
 (6 mm/s for a grain of 1 cm), and unbalanced force (mean resultant over mean contact force) below 0.01.
-Stages before the last stop at a multiple of these limits. What was reached is reported.
+Stages before the last stop at a multiple of these limits. What was reached is reported, and a drop on a bed
+that does not rest warns.
 """
 from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
@@ -38,7 +39,8 @@ SETTLING_RESTITUTION = 0.8
 # with restitution 0.6, at 0.35 with 0.3 and at 0.15 with 0.1. Settling therefore uses at least 0.8.
 STEP_FRACTION = 0.3
 CHECK_INTERVAL = 40
-MAX_STEPS = {"settle": 6000, "stiffen": 3000}
+# After so many steps a stage ends whether or not the bed rests; the report says which.
+MAX_STEPS = {"settle": 10_000, "stiffen": 8000}
 
 
 def prepare_bed(spec: BedSpec, progress: Progress) -> Bed:
@@ -158,6 +160,20 @@ def _level(bed: Bed) -> None:
     else:
         keep = height <= bed.spec.depth
     bed.centres, bed.radii = bed.centres[keep], bed.radii[keep]
+
+
+def unrest(report: Mapping[str, float]) -> str:
+    """What keeps a prepared bed from being at rest, in words; empty if nothing does."""
+    limits = {
+        "kinetic_energy_per_grain_over_m_g_d": KINETIC_LIMIT,
+        "unbalanced_force": UNBALANCED_LIMIT,
+    }
+    missed = [
+        f"{name} is {report[name]:.2g} (limit {limit:g})"
+        for name, limit in limits.items()
+        if name in report and not report[name] <= 1.1 * limit
+    ]
+    return f"the bed is not at rest: {', '.join(missed)}" if missed else ""
 
 
 def _measure(bed: Bed) -> dict[str, float]:

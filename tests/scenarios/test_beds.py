@@ -10,7 +10,7 @@ import yade
 from yade import O, utils
 
 from grainfall.bed_scene import add_bed, grain_centres, restore_contacts
-from grainfall.bed_settling import KINETIC_LIMIT, UNBALANCED_LIMIT
+from grainfall.bed_settling import KINETIC_LIMIT, UNBALANCED_LIMIT, unrest
 from grainfall.beds import BedSpec, load_bed, obtain_bed
 from grainfall.contacts import Sand, contact_loop, rayleigh_step
 
@@ -48,6 +48,12 @@ def bed(bed_cache):
 def test_a_bed_is_at_rest_by_its_own_report(bed):
     assert bed.report["kinetic_energy_per_grain_over_m_g_d"] < KINETIC_LIMIT
     assert bed.report["unbalanced_force"] < UNBALANCED_LIMIT
+
+
+def test_a_bed_that_does_not_rest_is_called_so(bed):
+    assert unrest(bed.report) == ""
+    restless = {**bed.report, "kinetic_energy_per_grain_over_m_g_d": 5e-3}
+    assert "kinetic_energy_per_grain_over_m_g_d is 0.005 (limit 0.0002)" in unrest(restless)
 
 
 def test_a_bed_has_the_depth_and_the_solid_fraction_asked_for(bed):

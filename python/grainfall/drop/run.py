@@ -15,6 +15,7 @@ import numpy as np
 import yade.timing
 from yade import O
 
+from grainfall.bed_settling import unrest
 from grainfall.beds import Bed, load_bed, obtain_bed, save_bed
 from grainfall.drop import trace as traces
 from grainfall.drop.options import OptionError
@@ -138,7 +139,7 @@ class DropRun:
         save_bed(bed, self.folder / BED)
         self.clock.lap("bed preparation")
         build_scene(self.parameters, bed)
-        for warning in check_scene():
+        for warning in filter(None, [*check_scene(), unrest(bed.report)]):
             print(f"warning: {warning}", file=sys.stderr)
         self.clock.lap("scene")
         return bed
