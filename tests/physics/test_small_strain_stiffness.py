@@ -142,7 +142,7 @@ def random_packing() -> sp.Packing:
 @pytest.mark.parametrize("name", STRAINS)
 def test_affine_stress_increment_is_the_sum_over_contacts(random_packing, name):
     direction = STRAINS[name]
-    amount = 1e-7  # an eightieth of the smallest overlap; a ten-thousandth of the mean one
+    amount = 3e-8  # 0.7 % of the smallest overlap, 4e-5 of the mean one
     start = build(random_packing)
     strain(direction, amount)
     plus = read_contacts()
@@ -150,8 +150,9 @@ def test_affine_stress_increment_is_the_sum_over_contacts(random_packing, name):
     strain(direction, -amount)
     minus = read_contacts()
     measured = work_per_strain(direction, minus, plus) / (2 * amount)
-    # Central differences: Hertz's curvature enters by the square of strain over overlap.
-    assert measured == pytest.approx(sum_over_contacts(direction, start), rel=2e-6)
+    # Hertz's curvature drops out of central differences; the spring's rescaling, which knows loading from
+    # unloading, leaves a part of strain over overlap.
+    assert measured == pytest.approx(sum_over_contacts(direction, start), rel=1e-6)
 
 
 def test_affine_moduli_of_a_lattice_are_those_of_effective_medium_theory():
@@ -159,7 +160,7 @@ def test_affine_moduli_of_a_lattice_are_those_of_effective_medium_theory():
     contacts = build(lattice)
     assert len(contacts.force) == 6 * len(lattice.centres)
     # Solid fraction and branch vectors know of the overlap, the theory does not: 1e-4 a factor.
-    assert affine_moduli(contacts) == pytest.approx(effective_medium(lattice, contacts), rel=5e-4)
+    assert affine_moduli(contacts) == pytest.approx(effective_medium(lattice, contacts), rel=3e-4)
 
 
 def test_affine_moduli_of_a_random_packing_are_effective_medium_theory_s_but_for_unequal_forces(
@@ -176,29 +177,43 @@ def test_affine_moduli_of_a_random_packing_are_effective_medium_theory_s_but_for
     assert np.all(moduli < 0.95 * theory)
 
 
-@pytest.mark.parametrize("name", ["isotropic", "xy"])
-def test_relaxed_moduli_lie_below_the_affine_ones(random_packing, name):
-    direction = STRAINS[name]
-    amount = 1e-5 if name == "xy" else -1e-5
-    moduli = {}
-    for law in ("incremental", "none"):
-        contacts = build(random_packing, law, held=False)
-        O.run(2000, True)
-        start = read_contacts()
-        affine = sum_over_contacts(direction, contacts)
-        strain(direction, amount, 100)
-        O.run(3000, True)
-        force = stress_along(direction) - stress_of(direction, start)
-        moduli[law] = force / amount / affine
-    print(name, moduli)
-    assert 0.3 < moduli["incremental"] < 0.99
+def relaxed_over_affine(
+    packing: sp.Packing, direction: np.ndarray, amount: float, law: str
+) -> float:
+    """Stiffness against a strain after which the spheres have come to rest, over the affine one."""
+    contacts = build(packing, law, held=False)
+    O.run(300, True)
+    start = stress_along(direction, read_contacts())
+    strain(direction, amount, 100)
+    O.run(800, True)
+    assert utils.unbalancedForce() < 1e-4
+    increment = stress_along(direction, read_contacts()) - start
+    return increment / amount / sum_over_contacts(direction, contacts)
 
 
-def stress_of(direction: np.ndarray, contacts: Contacts) -> float:
+def stress_along(direction: np.ndarray, contacts: Contacts) -> float:
     """stress : direction [Pa], tension positive."""
     force = contacts.force[:, None] * contacts.normal + contacts.shear
     return -float((force * (contacts.branch @ direction.T)).sum()) / O.cell.volume
 
 
-def stress_along(direction: np.ndarray) -> float:
-    return stress_of(direction, read_contacts())
+def test_a_lattice_has_nothing_to_relax():
+    # Every sphere is a centre of inversion. The strain is 1e-3 of overlap over radius.
+    ratio = relaxed_over_affine(sp.face_centred_cubic(3, 2e-4), STRAINS["xy"], 1e-7, "incremental")
+    assert ratio == pytest.approx(1.0, rel=1e-3)
+
+
+def test_a_packing_that_relaxes_is_softer_more_in_shear_than_in_compression(random_packing):
+    # Overlaps change by 1 %, which is what the ratios are uncertain by.
+    bulk = relaxed_over_affine(random_packing, STRAINS["isotropic"], -1e-5, "incremental")
+    shear = relaxed_over_affine(random_packing, STRAINS["xy"], 1e-5, "incremental")
+    assert shear < 0.8
+    assert shear < bulk < 0.98
+
+
+def test_without_friction_the_shear_stiffness_nearly_vanishes_at_jamming(random_packing):
+    """O'Hern et al. (2003): K stays of the order of the contact stiffness, G goes to zero with pressure."""
+    bulk = relaxed_over_affine(random_packing, STRAINS["isotropic"], -1e-5, "none")
+    shear = relaxed_over_affine(random_packing, STRAINS["xy"], 1e-5, "none")
+    assert bulk > 0.7
+    assert 0 < shear < 0.15
