@@ -56,8 +56,8 @@ def test_published_patch_restitution_is_met_while_the_contact_slides(test, name)
 def test_published_patch_restitution_is_near_where_the_contact_first_slides(test, name, law):
     inverse_slip, expected = published(test, "patch_restitution", name)
     partial = (inverse_slip > 1) & (inverse_slip < 3.2)
-    # The published codes let the dashpot act beside a cap read at the elastic force alone; ours caps the
-    # sum at the whole normal force (benchmarks/chung_ooi_readings.py): up to 0.11 between the two.
+    # The published curves are those of a cap at mu times the elastic normal force; ours is the whole
+    # normal force, dashpot included (benchmarks/chung_ooi_readings.py): up to 0.11 between the two.
     measured = patch_restitution(test, name, inverse_slip[partial], law)
     assert measured == pytest.approx(expected[partial], abs=0.12)
 
