@@ -3,9 +3,9 @@
 
 Pressed together by a force F_0 the row is a chain of springs k_n = 3/2 F_0/overlap and masses a distance d
 apart. Small waves obey omega = 2 sqrt(k_n/m) sin(q d/2), so long ones travel at d sqrt(k_n/m), which grows
-as F_0^(1/6) (Nesterenko 2001, Dynamics of Heterogeneous Materials, section 1.2). Without precompression
+as F_0^(1/6) (Nesterenko 2001, Dynamics of Heterogeneous Materials). Without precompression
 there is no sound; a blow travels as a solitary wave, in the long-wave limit at V = (16/25)^(1/5) c^(4/5)
-v^(1/5), c^2 = 2E/(pi rho (1 - nu^2)), v the largest speed of a sphere (same book, section 1.3).
+v^(1/5), c^2 = 2E/(pi rho (1 - nu^2)), v the largest speed of a sphere (same book).
 """
 from __future__ import annotations
 

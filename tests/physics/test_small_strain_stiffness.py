@@ -39,13 +39,11 @@ STRAINS = {
 
 @dataclass(frozen=True)
 class Contacts:
-    """Contacts of the scene: ids shape (c, 2), force [N], stiffnesses [N/m], normals, branches [m],
-    shear forces on the second sphere [N]."""
+    """Contacts of the scene: ids shape (c, 2), normal force [N], normals, branches [m], shear forces on
+    the second sphere [N]."""
 
     ids: np.ndarray
     force: np.ndarray
-    normal_stiffness: np.ndarray
-    shear_stiffness: np.ndarray
     normal: np.ndarray
     branch: np.ndarray
     shear: np.ndarray
@@ -63,14 +61,13 @@ def read_contacts() -> Contacts:
         shift = O.cell.hSize * contact.cellDist
         branch = O.bodies[contact.id2].state.pos + shift - O.bodies[contact.id1].state.pos
         geom, phys = contact.geom, contact.phys
-        stiffness = (phys.kn, phys.ks)
         force = phys.normalForce.dot(geom.normal)
         ids = (contact.id1, contact.id2)
-        rows.append((*ids, force, *stiffness, *geom.normal, *branch, *phys.shearForce))
+        rows.append((*ids, force, *geom.normal, *branch, *phys.shearForce))
     table = np.array(sorted(rows))
-    parts = np.split(table, [2, 3, 4, 5, 8, 11], axis=1)
-    ids, force, kn, ks, normal, branch, shear = parts
-    return Contacts(ids, force[:, 0], kn[:, 0], ks[:, 0], normal, branch, shear)
+    parts = np.split(table, [2, 3, 6, 9], axis=1)
+    ids, force, normal, branch, shear = parts
+    return Contacts(ids, force[:, 0], normal, branch, shear)
 
 
 def build(packing: sp.Packing, tangential_law: str = "incremental", held: bool = True) -> Contacts:
@@ -105,23 +102,34 @@ def work_per_strain(direction: np.ndarray, before: Contacts, after: Contacts) ->
     return -float((force * moved).sum()) / O.cell.volume
 
 
-def sum_over_contacts(direction: np.ndarray, contacts: Contacts) -> float:
+def stiffnesses(contacts: Contacts) -> tuple[np.ndarray, np.ndarray]:
+    """Hertz's 2 E* a and Mindlin's 8 G* a of each contact [N/m], from its overlap alone."""
+    overlap = 2 * RADIUS - np.linalg.norm(contacts.branch, axis=1)
+    contact_radius = np.sqrt(RADIUS / 2 * overlap)
+    normal = 2 * SHEAR_MODULUS / (1 - POISSON) * contact_radius
+    return normal, 8 * SHEAR_MODULUS / (2 * (2 - POISSON)) * contact_radius
+
+
+def sum_over_contacts(
+    direction: np.ndarray, contacts: Contacts, frictionless: bool = False
+) -> float:
     """direction : C : direction [Pa] of affine motion."""
+    normal, shear = stiffnesses(contacts)
     moved = contacts.branch @ direction.T
     along = (moved * contacts.normal).sum(axis=1)
     across = (moved**2).sum(axis=1) - along**2
     # YADE's remedy against ratcheting lengthens shear increments by 2 R/(2 R - overlap).
     longer = 2 * RADIUS / np.linalg.norm(contacts.branch, axis=1)
-    stiff = contacts.normal_stiffness * along**2 + contacts.shear_stiffness * longer * across
+    stiff = normal * along**2 + (0 if frictionless else shear * longer * across)
     return float(stiff.sum()) / O.cell.volume
 
 
 def affine_moduli(contacts: Contacts) -> tuple[float, float]:
     """K and G [Pa] by the sums over contacts."""
     square = (contacts.branch**2).sum(axis=1)
-    bulk = (contacts.normal_stiffness * square).sum() / (9 * O.cell.volume)
-    both = contacts.normal_stiffness + 1.5 * contacts.shear_stiffness
-    return bulk, (both * square).sum() / (15 * O.cell.volume)
+    normal, shear = stiffnesses(contacts)
+    bulk = (normal * square).sum() / (9 * O.cell.volume)
+    return bulk, ((normal + 1.5 * shear) * square).sum() / (15 * O.cell.volume)
 
 
 def effective_medium(packing: sp.Packing, contacts: Contacts) -> tuple[float, float]:
@@ -188,7 +196,7 @@ def relaxed_over_affine(
     O.run(800, True)
     assert utils.unbalancedForce() < 1e-4
     increment = stress_along(direction, read_contacts()) - start
-    return increment / amount / sum_over_contacts(direction, contacts)
+    return increment / amount / sum_over_contacts(direction, contacts, law == "none")
 
 
 def stress_along(direction: np.ndarray, contacts: Contacts) -> float:
