@@ -71,10 +71,11 @@ def test_eq_4_with_half_of_mindlin_s_stiffness_is_the_published_curve(name):
     assert np.max(np.abs(whole - expected)) > 1.0
 
 
-@pytest.mark.parametrize("law", ["incremental", "secant"])
+@pytest.mark.parametrize("law", ["incremental", "secant", "report"])
 def test_steel_is_nearer_to_the_finite_elements_than_the_published_curve(law):
     before, finite_elements = published("slip", "finite_elements")
     ours = slip_after("steel", before, law) - finite_elements
     theirs = np.interp(before, *published("slip", "steel")) - finite_elements
-    # Root mean squares: 0.34 ("incremental"), 0.39 ("secant"), 0.63 theirs. What is left is micro-slip.
+    # Root mean squares: 0.34, 0.39, 0.12 and 0.63 theirs. What is left is micro-slip; the softer spring of
+    # "report" stands in for part of it.
     assert np.sqrt(np.mean(ours**2)) < 0.7 * np.sqrt(np.mean(theirs**2))
