@@ -38,12 +38,6 @@ struct Stiffness {
 
 class BodyStiffness {
 public:
-    void clear() {
-        vv_.setZero();
-        vw_.setZero();
-        ww_.setZero();
-    }
-
     void add(const Stiffness& k, const Vector& normal, const Vector& lever) {
         const double excess = k.normal - k.shear;
         const Vector p = normal.cross(lever);
@@ -60,6 +54,8 @@ public:
         ww_.noalias() += (excess * p) * p.transpose() - r * lever.transpose();
         ww_.diagonal().array() += r.dot(lever);
     }
+
+    bool touched() const { return vv_(0, 0) + vv_(1, 1) + vv_(2, 2) > 0; }
 
     // 1/s^2, never below the largest eigenvalue, at a fraction of its price: for symmetric S of order n
     // lambda <= t/n + sqrt((n-1)/n (|S|^2 - t^2/n)), t the trace (Wolkowicz & Styan 1980).

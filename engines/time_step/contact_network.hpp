@@ -119,7 +119,7 @@ private:
         bound_.resize(mobility_.size());
         exact_.assign(mobility_.size(), 0);
         for (std::size_t b = 0; b < mobility_.size(); ++b)
-            bound_[b] = stiffness_[b].upper_bound(mobility_[b]);
+            bound_[b] = stiffness_[b].touched() ? stiffness_[b].upper_bound(mobility_[b]) : 0;
         Decision best;
         if (const int first = most_promising(); first >= 0)
             consider(first, best);

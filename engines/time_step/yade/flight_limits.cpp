@@ -14,37 +14,54 @@ namespace ts = grainfall::time_step;
 
 namespace {
 
-// Pa, E/(1 - nu^2); 0 for a material that is not elastic.
-Real plane_modulus(const Body& body) {
-    const auto* material = dynamic_cast<const ElastMat*>(body.material.get());
-    return material ? material->young / (1 - material->poisson * material->poisson) : 0;
-}
+// What meets other bodies: a body with a surface.
+struct Solid {
+    Body::id_t id = -1;
+    bool is_sphere = false;
+    bool moves = false;
+    Real reach = 0; // m, from its position to its farthest point; 0 for one without an end, such as a wall
+    Real mass = 0;  // kg, of the clump for its members
+    Real young = 0, poisson = 0, density = 0; // 0 where the material is not elastic
 
-// m, how far a body reaches from its position; 0 for one without an end, such as a wall.
-Real reach(const Body& body) {
-    if (const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get()))
-        return sphere->radius;
-    const Real half = body.bound ? 0.5 * (body.bound->max - body.bound->min).norm() : 0;
-    return std::isfinite(half) ? half : 0;
+    Real plane_modulus() const { return young / (1 - poisson * poisson); } // Pa
+};
+
+Solid describe(const Scene& scene, const Body& body) {
+    Solid solid;
+    solid.id = body.id;
+    if (const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get())) {
+        solid.is_sphere = true;
+        solid.reach = sphere->radius;
+    } else if (body.bound) {
+        const Real half = 0.5 * (body.bound->max - body.bound->min).norm();
+        solid.reach = std::isfinite(half) ? half : 0;
+    }
+    const Body& moving = mover(scene, body);
+    solid.moves = moving.isDynamic();
+    solid.mass = moving.state->mass;
+    if (const auto* material = dynamic_cast<const ElastMat*>(body.material.get())) {
+        solid.young = material->young;
+        solid.poisson = material->poisson;
+        solid.density = material->density;
+    }
+    if (solid.is_sphere && !body.isClumpMember())
+        solid.density = solid.mass / (4 * ts::pi / 3 * solid.reach * solid.reach * solid.reach);
+    return solid;
 }
 
 // Smallest box that holds the velocities of all bodies, surface points of those that turn included: no two
 // bodies approach faster than its diagonal, seen from any moving frame.
 class VelocityBox {
 public:
-    void add(const Body& body) {
-        const Real spin =
-            dynamic_cast<const Sphere*>(body.shape.get()) ? 0 : body.state->angVel.norm() * reach(body);
-        const Vector3r low = body.state->vel.array() - spin, high = body.state->vel.array() + spin;
+    void add(const Body& body, const Solid& solid) {
+        const Real spin = solid.is_sphere ? 0 : body.state->angVel.norm() * solid.reach;
         for (int i = 0; i < 3; ++i) {
-            if (low[i] < low_[i])
-                low_[i] = low[i];
-            if (high[i] > high_[i])
-                high_[i] = high[i];
+            low_[i] = std::min(low_[i], body.state->vel[i] - spin);
+            high_[i] = std::max(high_[i], body.state->vel[i] + spin);
         }
-        const Real speed = body.state->vel.norm() + spin;
-        if (speed > fastest_speed_) {
-            fastest_speed_ = speed;
+        const Real squared = body.state->vel.squaredNorm() + spin * spin;
+        if (squared > fastest_squared_) {
+            fastest_squared_ = squared;
             fastest_ = body.id;
         }
     }
@@ -53,7 +70,7 @@ public:
 
 private:
     Vector3r low_ = Vector3r::Constant(ts::no_limit), high_ = Vector3r::Constant(-ts::no_limit);
-    Real fastest_speed_ = 0;
+    Real fastest_squared_ = 0;
     Body::id_t fastest_ = -1;
 };
 
@@ -64,65 +81,69 @@ std::string approach(const VelocityBox& box) {
     return text.str();
 }
 
-bool is_solid(const Body& body) {
-    return body.shape && body.state && !body.isClump();
+StepLimit rayleigh_limit(const std::vector<Solid>& solids) {
+    StepLimit least;
+    for (const Solid& solid : solids) {
+        if (!solid.is_sphere || !solid.moves || !(solid.young > 0 && solid.density > 0))
+            continue;
+        const Real step = ts::rayleigh_step(solid.reach, solid.density, solid.young, solid.poisson);
+        if (step < least.step) {
+            least.step = step;
+            least.bodies = {solid.id};
+        }
+    }
+    if (!least.bodies.empty())
+        least.reason = "Rayleigh step of " + std::to_string(least.bodies[0]);
+    return least;
 }
 
-void add_rayleigh(const Scene& scene, const Body& body, StepLimit& least) {
-    const auto* sphere = dynamic_cast<const Sphere*>(body.shape.get());
-    const auto* material = dynamic_cast<const ElastMat*>(body.material.get());
-    if (!sphere || !material || !mover(scene, body).isDynamic() || !(material->young > 0))
-        return;
-    const Real volume = 4 * ts::pi / 3 * sphere->radius * sphere->radius * sphere->radius;
-    const Real density = body.isClumpMember() ? material->density : body.state->mass / volume;
-    const Real step = ts::rayleigh_step(sphere->radius, density, material->young, material->poisson);
-    if (step > 0 && step < least.step) {
-        least.step = step;
-        least.bodies = {body.id};
+// Of two bodies that meet let b be the lighter one: m* >= m_b/2, R* <= R_b, E* at most with the stiffest
+// partner. The limit depends on them through m*/K alone.
+StepLimit impact_limit(const std::vector<Solid>& solids, const VelocityBox& box) {
+    Real stiffest = 0;
+    for (const Solid& solid : solids)
+        stiffest = std::max(stiffest, solid.plane_modulus());
+    Real least = ts::no_limit;
+    Body::id_t weakest = -1;
+    for (const Solid& solid : solids) {
+        if (!solid.moves || !(solid.young > 0 && solid.reach > 0 && solid.mass > 0))
+            continue;
+        const Real modulus = 1 / (1 / solid.plane_modulus() + 1 / stiffest);
+        const Real ratio = solid.mass / 2 / (4.0 / 3 * modulus * std::sqrt(solid.reach));
+        if (ratio < least) {
+            least = ratio;
+            weakest = solid.id;
+        }
     }
+    if (weakest < 0)
+        return {};
+    return {ts::impact_limit(1, least, box.largest_difference()),
+            {box.fastest(), weakest},
+            approach(box) + ", impact on " + std::to_string(weakest)};
 }
 
 } // namespace
 
 FlightLimits flight_limits(const Scene& scene) {
-    FlightLimits limits;
     VelocityBox box;
-    Real stiffest = 0, smallest = ts::no_limit;
+    std::vector<Solid> solids;
+    solids.reserve(scene.bodies->size());
+    Real smallest = ts::no_limit;
     for (const auto& body : *scene.bodies) {
-        if (!body || !is_solid(*body))
+        if (!body || !body->shape || body->isClump())
             continue;
-        box.add(*body);
-        stiffest = std::max(stiffest, plane_modulus(*body));
-        const Real radius = reach(*body);
-        const bool counts = mover(scene, *body).isDynamic() || dynamic_cast<const Sphere*>(body->shape.get());
-        if (counts && radius > 0)
-            smallest = std::min(smallest, radius);
-        add_rayleigh(scene, *body, limits.rayleigh);
+        const Solid& solid = solids.emplace_back(describe(scene, *body));
+        box.add(*body, solid);
+        if ((solid.moves || solid.is_sphere) && solid.reach > 0)
+            smallest = std::min(smallest, solid.reach);
     }
-    if (!limits.rayleigh.bodies.empty())
-        limits.rayleigh.reason = "Rayleigh step of " + std::to_string(limits.rayleigh.bodies[0]);
-
+    FlightLimits limits;
+    limits.rayleigh = rayleigh_limit(solids);
     const Real speed = box.largest_difference();
     if (!(speed > 0) || smallest == ts::no_limit)
         return limits;
     limits.displacement = {smallest / speed, {box.fastest()}, approach(box) + ", displacement"};
-    // Of two bodies that meet call b the lighter one: m* >= m_b/2, R* <= R_b, E* at most with the
-    // stiffest partner.
-    for (const auto& body : *scene.bodies) {
-        if (!body || !is_solid(*body) || !mover(scene, *body).isDynamic())
-            continue;
-        const Real modulus = plane_modulus(*body), radius = reach(*body);
-        const Real mass = mover(scene, *body).state->mass;
-        if (!(modulus > 0 && radius > 0 && mass > 0))
-            continue;
-        const Real pair_modulus = 1 / (1 / modulus + 1 / stiffest);
-        const Real coefficient = 4.0 / 3 * pair_modulus * std::sqrt(radius);
-        const Real step = ts::impact_limit(coefficient, mass / 2, speed);
-        if (step < limits.impact.step)
-            limits.impact = {step, {box.fastest(), body->id}, ""};
-    }
-    if (!limits.impact.bodies.empty())
-        limits.impact.reason = approach(box) + ", impact on " + std::to_string(limits.impact.bodies[1]);
+    limits.impact = impact_limit(solids, box);
     return limits;
 }
 
