@@ -26,7 +26,7 @@ struct StepControl {
         if (target < step)
             return chosen;
         if (chosen > step * (1 + dead_band))
-            return std::min(chosen, step * max_growth);
+            return std::max(min_step, std::min(chosen, step * max_growth));
         return step;
     }
 

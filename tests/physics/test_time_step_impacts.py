@@ -139,7 +139,6 @@ class Shot:
         self.energy = 0.5 * O.bodies[self.id].state.mass * speed**2
         self.seen: set[tuple[int, int]] = set()
         self.first = self.largest = self.residual = 0.0
-        self.reasons: set[str] = set()
 
     def _set_engines(self, stepper: dict) -> None:
         ip2, _ = cs.grain_law()
@@ -163,7 +162,6 @@ class Shot:
                 self.seen.add(pair)
                 self.first = max(self.first, overlap)
         if O.iter % 25 == 0:
-            self.reasons.add(self.stepper.reason)
             dissipated = sum(v for k, v in O.energy.items() if k.startswith("grain"))
             stored = sum(self.law.elasticEnergy().values())
             total = energy_of_motion() + stored + dissipated
@@ -177,20 +175,9 @@ def test_projectile_never_jumps_into_a_grain_and_energy_is_conserved(speed, shap
     O.run(1, True)
     assert "approach" in shot.stepper.reason or speed < 1
     O.run(800, True)
-    print(
-        speed,
-        shape,
-        shot.first,
-        shot.largest,
-        shot.residual,
-        len(shot.seen),
-        O.iter,
-        O.dt,
-        shot.reasons,
-    )
     assert len(shot.seen) >= 1
-    assert shot.first <= shot.stepper.maxApproach
-    assert shot.residual < 0.01
+    assert shot.first <= 0.02
+    assert shot.residual < 0.005
 
 
 def test_first_touch_is_bounded_by_the_way_that_is_allowed_in_a_step():

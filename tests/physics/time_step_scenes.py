@@ -122,6 +122,19 @@ def add_materials(friction_angle: float = STICKING) -> None:
         O.materials.append(solid.material(label=label, frictionAngle=friction_angle))
 
 
+def add_colliding_grains() -> list[int]:
+    """64 damped, frictional grains that rush together above a floor; their ids."""
+    O.materials.append(SOLID.material(label="grain", friction=0.5, restitution=0.7))
+    cs.add_plane("grain", -1.01 * RADIUS)
+    random = np.random.default_rng(2)
+    ids = []
+    for place in itertools.product(range(4), repeat=3):
+        centre = (np.array(place) * 2.02 + 0.02 * random.standard_normal(3)) * RADIUS
+        velocity = 2.0 * (np.array([1.5, 1.5, 1.5]) - place)
+        ids.append(cs.add_sphere(centre, RADIUS, "grain", velocity))
+    return ids
+
+
 def shake(ids: list[int], speed: float = 1e-7) -> None:
     """Give the bodies velocities and spins of about `speed` [m/s], the same ones in every run."""
     random = np.random.default_rng(1)

@@ -61,6 +61,10 @@ void HertzTimeStepper::computeTimeStep(Scene* in) {
     reason = bounded ? limit.reason : "nothing limits the step";
     if (bounded)
         criticalStep = limit.step;
+    if (bounded && (smallestStep == 0 || after < smallestStep)) {
+        smallestStep = after;
+        smallestReason = reason;
+    }
     if (after == before)
         return;
     // The velocities of a scene at its start belong to no step yet.
