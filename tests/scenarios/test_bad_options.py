@@ -29,6 +29,8 @@ BAD = [
     ("seed", 1.5, r"--seed = 1.5.*whole number"),
     ("duration", 0, r"--duration = 0.*above 0 s"),
     ("dt_safety", 2, r"--dt-safety = 2.*\[0.001, 1\]"),
+    ("time_step_control", "herz", r"--time-step-control = 'herz'.*did you mean hertz"),
+    ("time_step_control", "fixed", r"--time-step-control = 'fixed'.*--time-step must be given"),
     ("normal_law", "herz", r"--normal-law = 'herz'.*did you mean hertz"),
     ("solid_fraction", 0.9, r"--solid-fraction = 0.9.*\[0.4, 0.64\]"),
     ("quick", "maybe", r"--quick = 'maybe'.*true or false"),
@@ -75,3 +77,8 @@ def test_help_states_units(tmp_path):
     assert process.returncode == 0
     for unit in ("[m]", "[s]", "[Pa]", "[kg]", "[m/s]", "[kg/m3]", "[rad/s]"):
         assert unit in text
+
+
+def test_a_given_time_step_and_another_control_of_it_are_refused(tmp_path):
+    with pytest.raises(OptionError, match="--time-step = 1e-06, --time-step-control = 'hertz'"):
+        drop_test(output=str(tmp_path / "drop"), time_step=1e-6, time_step_control="hertz")

@@ -72,10 +72,29 @@ def friction_is_known(values: dict[str, Any], given: Mapping[str, Any]) -> None:
         raise OptionError(_naming("--moisture-factor", values["moisture_factor"], error)) from None
 
 
+def time_step_has_one_master(values: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """A step is given where it is to be fixed, and only there; a control overrules a preset's step."""
+    control = values["time_step_control"]
+    if control == "fixed" and values["time_step"] is None:
+        raise OptionError("--time-step-control = 'fixed': --time-step must be given with it")
+    if control in ("rayleigh", "hertz"):
+        if given.get("time_step") is not None:
+            raise OptionError(
+                f"--time-step = {given['time_step']}, --time-step-control = {control!r}: must be one of the two"
+            )
+        values["time_step"] = None
+
+
 def _naming(flag: str, value: Any, error: Exception) -> str:
     """The message with the option's name in front, unless it is there already."""
     text = str(error)
     return text if text.startswith(flag) else f"{flag} = {value!r}: {text}"
 
 
-CHECKS = (only_one_speed, projectile_fits, grains_fit, friction_is_known)
+CHECKS = (
+    only_one_speed,
+    projectile_fits,
+    grains_fit,
+    friction_is_known,
+    time_step_has_one_master,
+)

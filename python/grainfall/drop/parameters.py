@@ -244,9 +244,19 @@ BED = (
 
 NUMERICS = (
     Option(
+        "time_step_control",
+        None,
+        "rayleigh: --dt-safety times the smallest grain's Rayleigh step; hertz: HertzTimeStepper with "
+        "--dt-safety times the critical step of the moment; fixed: --time-step (without this option: fixed "
+        "where a time step is given, else rayleigh)",
+        kind=str,
+        choices=("rayleigh", "hertz", "fixed"),
+    ),
+    Option(
         "dt_safety",
         0.2,
-        "time step over the Rayleigh step of the smallest grain",
+        "time step over the Rayleigh step of the smallest grain, or over the critical step with "
+        "--time-step-control hertz",
         "-",
         low=0.001,
         high=1,

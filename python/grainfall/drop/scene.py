@@ -68,7 +68,7 @@ def impact_speed(parameters: Mapping[str, Any]) -> float:
 
 
 def time_step(parameters: Mapping[str, Any], bed: Bed) -> float:
-    """Time step [s]: as given, or a fraction of the smallest grain's Rayleigh step."""
+    """First time step [s]: as given, or a fraction of the smallest grain's Rayleigh step."""
     if parameters["time_step"] is not None:
         return parameters["time_step"]
     sand = sand_of(parameters)
@@ -132,13 +132,18 @@ def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
         w.GrainPair("sand", "projectile", **on_projectile),
         w.GrainPair("sand", "wall", friction=p["wall_friction"]),
     ]
+    # The stepper stands before what multiplies forces with the step, so that all use the same one.
+    adaptive = p["time_step_control"] == "hertz"
+    stepper = [w.HertzTimeStepper(safety=p["dt_safety"], label="time_stepper")] if adaptive else []
     every = max(1, round(p["record_interval"] / time_step(p, bed)))
+    rate = {"virtPeriod": p["record_interval"]} if adaptive else {"iterPeriod": every}
     command = "import grainfall.drop.trace; grainfall.drop.trace.record()"
     return [
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
         contact_loop(sand, pairs, contact),
+        *stepper,
         w.ProjectileLoad(body=projectile_id(bed), label="projectile_load"),
-        w.PyRunner(command=command, iterPeriod=every, label="recorder"),
+        w.PyRunner(command=command, label="recorder", **rate),
         w.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=0, label="integrator"),
     ]

@@ -63,6 +63,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
         "particles": len(bed.radii),
         "steps": O.iter,
         "time_step_s": O.dt,
+        **time_steps(p),
         "simulated_seconds": O.time,
         "wall_seconds": run.earlier["wall_seconds"] + run.clock.total,
         "interrupted": run.interrupted,
@@ -82,6 +83,22 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
     summary["parameters"] = dict(p)
     summary["notes"] = notes(summary, p)
     return summary
+
+
+def time_steps(p: dict[str, Any]) -> dict[str, Any]:
+    """Smallest and mean step [s], and what decided the smallest one."""
+    mean = O.time / O.iter if O.iter else O.dt
+    if p["time_step_control"] == "hertz":
+        stepper = builtins.time_stepper
+        smallest, reason = stepper.smallestStep, stepper.smallestReason
+    else:
+        smallest = O.dt
+        reason = "given" if p["time_step"] is not None else "Rayleigh step of the smallest grain"
+    return {
+        "time_step_smallest_s": smallest,
+        "time_step_mean_s": mean,
+        "time_step_decided_by": reason,
+    }
 
 
 def engine_seconds(run: DropRun) -> dict[str, float]:
