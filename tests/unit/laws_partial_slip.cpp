@@ -88,7 +88,7 @@ double loop_energy(double share, double limit, double stiffness) {
 TEST(PartialSlip, of_a_contact_that_cannot_slip_is_mindlins_spring) {
     Contact<> contact(overlap);
     for (int i = 1; i <= 10; ++i) {
-        contact.move(0, 1e-9 * contact.tangent(), 1e9);
+        contact.move(0, 1e-9 * contact.tangent(), 1e15);
         EXPECT_NEAR(contact.force.norm() / (stuck_stiffness() * 1e-9 * i), 1, 1e-12);
     }
 }
@@ -146,10 +146,9 @@ TEST(PartialSlip, loses_in_a_cycle_what_mindlin_and_deresiewicz_give) {
             return contact.energy.friction - before;
         };
         const double expected = loop_energy(share, limit, stiffness);
-        // Work is the mean of two forces times a step: second order in the step.
-        const double coarse = cycle(100) / expected - 1, fine = cycle(1600) / expected - 1;
-        EXPECT_LT(std::abs(fine), 1e-4) << share;
-        EXPECT_LT(std::abs(fine), std::abs(coarse) / 30) << share;
+        // Work is the mean of two forces times a step, second order in the step: what is left at step zero.
+        const double coarse = cycle(800), fine = cycle(1600);
+        EXPECT_NEAR((4 * fine - coarse) / 3 / expected, 1, 1e-6) << share;
     }
 }
 
@@ -357,8 +356,8 @@ TEST(PartialSlip, turns_with_its_contact) {
     Contact<> still(overlap), turned(overlap);
     const double reach = 1.5 * mu * normal_force() / stuck_stiffness();
     for (auto* contact : {&still, &turned}) {
-        contact->shear(0.8 * reach, 10, 0.2);
-        contact->shear(-0.5 * reach, 10, 1.0);
+        contact->shear(0.8 * reach, 10, 0.5);
+        contact->shear(-0.5 * reach, 10, 0.5);
     }
     // Half a turn about the normal in small steps, then the same shear in the turned frame.
     const int steps = 1000;
@@ -370,7 +369,7 @@ TEST(PartialSlip, turns_with_its_contact) {
         still.shear(leg * reach, 20, 0.5);
         turned.shear(leg * reach, 20, 0.5 + detail::pi);
         // A Cayley step of angle w turns by w^3/12 less: 3e-6 over the half turn.
-        EXPECT_LT((still.force + turned.force).norm(), 1e-5 * still.force.norm());
+        EXPECT_LT((still.force + turned.force).norm(), 1e-5 * mu * normal_force());
     }
 }
 
