@@ -118,17 +118,15 @@ inline bool advance_slip_profile(SlipPieces<slip_pieces>& pieces, double rim, co
         const SlipPiece& piece = pieces[i];
         const SlipLine trial{piece.stretch.centre, piece.mean + shift, piece.slope};
         const double to = std::min(piece.end, rim);
-        sticks |= add_limited(next, from, to, piece, trial, limit, spare);
+        sticks |= add_limited(next, from, to, &piece, trial, limit, spare);
         from = to;
     }
     if (rim > from) {
         const SlipLine trial{limit.depth, Planar::Zero(), -shift / (limit.depth - from * from)};
-        sticks |= add_limited(next, from, rim, SlipPiece(), trial, limit, spare);
+        sticks |= add_limited(next, from, rim, nullptr, trial, limit, spare);
     }
     join_pieces(next, slip_pieces, detail::negligible_slip_energy * next.integral_of_square());
-    pieces.count = next.count;
-    for (int i = 0; i < next.count; ++i)
-        pieces[i] = next[i];
+    pieces.take(next);
     return !sticks;
 }
 

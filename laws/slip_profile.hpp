@@ -26,9 +26,9 @@ using Planar = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 
 // The part of the contact between the roots `from` and `to` of the overlap.
 struct SlipStretch {
-    double width = 0;  // m^0.5
-    double centre = 0; // m
-    double spread = 0; // m^2.5, integral of (y - centre)^2 ds
+    double width;  // m^0.5
+    double centre; // m
+    double spread; // m^2.5, integral of (y - centre)^2 ds
 
     SlipStretch() = default;
     SlipStretch(double from, double to)
@@ -37,21 +37,34 @@ struct SlipStretch {
 };
 
 struct SlipPiece {
-    Planar mean;         // m
-    Planar slope;        // -
-    double end = 0;      // m^0.5; the piece begins where the one before it ends, the first at 0
-    double residual = 0; // m^2.5, integral of (what was joined into it - piece)^2
+    Planar mean;     // m
+    Planar slope;    // -
+    double end;      // m^0.5; the piece begins where the one before it ends, the first at 0
+    double residual; // m^2.5, integral of (what was joined into it - piece)^2
     // m^2.5, the residual if it were joined with the next piece outwards; negative: not known. Equal shifts
     // of both do not change it.
-    double joint_residual = -1;
+    double joint_residual;
     SlipStretch stretch; // follows from the ends
 };
 
-// `Capacity` pieces in a row, outwards.
+// `count` pieces in a row, outwards, of `Capacity`. What lies beyond them is neither set nor copied.
 template <int Capacity>
 struct SlipPieces {
     int count = 0;
     std::array<SlipPiece, Capacity> piece;
+
+    SlipPieces() = default;
+    SlipPieces(const SlipPieces& other) { take(other); }
+    SlipPieces& operator=(const SlipPieces& other) {
+        take(other);
+        return *this;
+    }
+    template <int Other>
+    void take(const SlipPieces<Other>& other) {
+        count = other.count;
+        for (int i = 0; i < count; ++i)
+            (*this)[i] = other[i];
+    }
 
     SlipPiece& operator[](int i) { return piece[static_cast<std::size_t>(i)]; }
     const SlipPiece& operator[](int i) const { return piece[static_cast<std::size_t>(i)]; }
@@ -113,6 +126,7 @@ inline SlipPiece joined(const SlipPiece& inner, const SlipPiece& outer, double s
                    (one.spread + two.spread + lever * distance * distance);
     result.end = outer.end;
     result.residual = inner.joint_residual;
+    result.joint_residual = -1;
     result.stretch = SlipStretch(start, outer.end);
     return result;
 }
@@ -225,13 +239,13 @@ void add_slip(SlipPieces<Capacity>& out, double from, double to, const SlipLine&
     out.add(stretch, mean, slope, to, residual);
 }
 
-// Adds [from, to] of `source` as it would be if all of it stuck, `trial`, with what exceeds the limit cut off
-// along its direction. At most three pieces, besides those that it takes from `spare`. Returns whether any
-// of it was within.
+// Adds [from, to] of `source` (null: springs new in touch) as it would be if all of it stuck, `trial`, with
+// what exceeds the limit cut off along its direction. At most three pieces, besides those that it takes from
+// `spare`. Returns whether any of it was within.
 //
 // |tau| - limit is convex in y, so that what is within is one stretch.
 template <int Capacity>
-bool add_limited(SlipPieces<Capacity>& out, double from, double to, const SlipPiece& source,
+bool add_limited(SlipPieces<Capacity>& out, double from, double to, const SlipPiece* source,
                  const SlipLine& trial, const SlipLimit& limit, int& spare) {
     const double low = from * from, high = to * to;
     const auto slips = [&](double y) {
@@ -239,8 +253,8 @@ bool add_limited(SlipPieces<Capacity>& out, double from, double to, const SlipPi
         return trial.at(y).squaredNorm() > allowed * allowed;
     };
     const bool slips_inside = slips(low), slips_outside = slips(high);
-    if (!slips_inside && !slips_outside && to == source.end) {
-        out.add_shifted(source, trial.mean);
+    if (!slips_inside && !slips_outside && source && to == source->end) {
+        out.add_shifted(*source, trial.mean);
         return true;
     }
     double stick_from = from, stick_to = to;
@@ -261,7 +275,7 @@ bool add_limited(SlipPieces<Capacity>& out, double from, double to, const SlipPi
     if (stick_from > from)
         add_slip(out, from, stick_from, trial, limit, spare);
     const SlipStretch stretch(stick_from, stick_to);
-    out.add(stretch, trial.at(stretch.centre), trial.slope, stick_to, source.residual);
+    out.add(stretch, trial.at(stretch.centre), trial.slope, stick_to, source ? source->residual : 0);
     if (to > stick_to)
         add_slip(out, stick_to, to, trial, limit, spare);
     return true;

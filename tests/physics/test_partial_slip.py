@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 
 import contact_scenes as cs
-import maw_barber_fawcett as maw
+import maw_barber_fawcett_impact as maw
 import numpy as np
 import pytest
 import test_chung_ooi_4_oblique_impact as chung_ooi_4
