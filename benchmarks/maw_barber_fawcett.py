@@ -55,7 +55,7 @@ def draw_elastic_impact(axes: plt.Axes) -> None:
     axes.set_xlabel(r"incidence $\psi_1$")
     axes.set_ylabel(r"rebound $\psi_2$")
     axes.set_title("elastic sphere on a plane, Poisson's ratio 0.3", size=10)
-    axes.legend(loc="lower left", frameon=False)
+    axes.legend(loc="upper center", frameon=False)
 
 
 def draw_experiment(axes: plt.Axes) -> None:
