@@ -110,20 +110,17 @@ private:
         carry_slip_history(memory, geometry, coefficient, limit_slope);
         SlipHistory& history = memory.history;
         const Vector across = geometry.normal.cross(history.axis);
-        const auto force_of_springs = [&]() -> Vector {
-            const Planar sum = coefficient * history.pieces.integral();
-            return sum.x() * history.axis + sum.y() * across;
-        };
         Vector before = Vector::Zero();
         double energy_before = 0;
         if constexpr (Energy::active) {
-            before = force_of_springs();
+            before = rotated_with_contact(memory.shear_force, geometry);
             energy_before = shear_elastic_energy(history, coefficient);
         }
         const Planar shift(-history.axis.dot(geometry.shear_increment),
                            -across.dot(geometry.shear_increment));
-        const bool all_slip = advance_slip_profile(history.pieces, root_overlap, shift, limit_slope);
-        Vector elastic = force_of_springs();
+        advance_slip_history(history, root_overlap, shift, limit_slope);
+        const Planar sum = coefficient * history.integral();
+        Vector elastic = sum.x() * history.axis + sum.y() * across;
 
         Vector viscous = Vector::Zero();
         if constexpr (Damping::active) {
@@ -131,7 +128,7 @@ private:
             viscous = (-factor * parameters.shear_damping * quarter_power / geometry.time_step) *
                       geometry.shear_increment;
         }
-        force.sliding = cap_shear(friction, load, viscous, elastic, force.shear) || all_slip;
+        force.sliding = cap_shear(friction, load, viscous, elastic, force.shear) || history.slides;
         if constexpr (Energy::active) {
             energy.add_shear_viscous(force.shear - elastic, geometry.shear_increment);
             energy.add_partial_slip(before, energy_before, elastic,

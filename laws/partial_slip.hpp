@@ -33,12 +33,27 @@ namespace grainfall::laws {
 
 // How many straight pieces a contact remembers; docs/physics/partial_slip.md has the error for other numbers.
 inline constexpr int slip_pieces = 8;
+// Of the overlap, of kappa, and of the shear at which an unloaded contact slides, kappa times the overlap.
+inline constexpr double slip_resolution = 1e-4;
 
 // What such a contact remembers besides ContactMemory.
+//
+// What one step adds is mostly too little to matter: the pieces are only brought up to date once overlap,
+// limit or shear have changed by `slip_resolution`. Until then they are stretched by `pending` as a whole, as
+// if all stuck. That is elastic too, so it makes no energy either; the force is off by at most 3/2
+// slip_resolution mu F_n.
 struct SlipHistory {
     SlipPieces<slip_pieces> pieces;
-    Vector axis = Vector::Zero(); // unit vector in the contact plane: first axis of the pieces' vectors
-    double force_squared = 0;     // N^2, of the elastic force these pieces gave last
+    Vector axis = Vector::Zero();    // unit vector in the contact plane: first axis of the pieces' vectors
+    Planar pending = Planar::Zero(); // m, shear since the pieces were up to date
+    double limit_slope = 0;          // kappa at that time
+    double force_squared = 0;        // N^2, of the elastic force that this history gave last
+    bool slides = false;             // did all springs slip when the pieces were brought up to date?
+
+    Planar integral() const { return pieces.integral() + pieces.rim() * pending; }
+    double integral_of_square() const {
+        return pieces.integral_of_square() + pending.dot(2 * pieces.integral() + pieces.rim() * pending);
+    }
 };
 
 struct PartialSlipMemory : ContactMemory {
@@ -53,7 +68,7 @@ struct PartialSlipMemory : ContactMemory {
 
 // J, energy in the springs; `coefficient` is 8 G* sqrt(R*) of the law in use.
 inline double shear_elastic_energy(const SlipHistory& history, double coefficient) {
-    return 0.5 * coefficient * history.pieces.integral_of_square();
+    return 0.5 * coefficient * history.integral_of_square();
 }
 
 inline double shear_elastic_energy(const PartialSlipMemory& memory) {
@@ -130,6 +145,20 @@ inline bool advance_slip_profile(SlipPieces<slip_pieces>& pieces, double rim, co
     return !sticks;
 }
 
+// One step of the history: see advance_slip_profile.
+inline void advance_slip_history(SlipHistory& history, double rim, const Planar& shift, double limit_slope) {
+    history.pending += shift;
+    const double depth = rim * rim, last_rim = history.pieces.rim();
+    const double allowed = slip_resolution * limit_slope * depth;
+    if (history.pending.squaredNorm() < allowed * allowed &&
+        std::abs(depth - last_rim * last_rim) < slip_resolution * depth &&
+        std::abs(limit_slope - history.limit_slope) < slip_resolution * limit_slope)
+        return;
+    history.slides = advance_slip_profile(history.pieces, rim, history.pending, limit_slope);
+    history.pending.setZero();
+    history.limit_slope = limit_slope;
+}
+
 // Turns the history with its contact. One that was loaded by another law, which shows in its force, starts as
 // if pressed first and then sheared until that force: `coefficient` is 8 G* sqrt(R*), `limit_slope` kappa.
 inline void carry_slip_history(PartialSlipMemory& memory, const ContactGeometry& geometry, double coefficient,
@@ -147,6 +176,8 @@ inline void carry_slip_history(PartialSlipMemory& memory, const ContactGeometry&
     const Vector force = rotated_with_contact(memory.shear_force, geometry);
     const Planar integral(history.axis.dot(force) / coefficient,
                           geometry.normal.cross(history.axis).dot(force) / coefficient);
+    history.pending.setZero();
+    history.limit_slope = limit_slope;
     detail::load_slip_profile(history.pieces, integral, SlipLimit{limit_slope, geometry.overlap, 0});
 }
 

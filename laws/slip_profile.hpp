@@ -30,10 +30,13 @@ struct SlipStretch {
     double centre; // m
     double spread; // m^2.5, integral of (y - centre)^2 ds
 
+    // Named, or -frounding-math has them computed every time.
+    static constexpr double third = 1.0 / 3, forty_fifth = 1.0 / 45;
+
     SlipStretch() = default;
     SlipStretch(double from, double to)
-        : width(to - from), centre((1.0 / 3) * (from * from + from * to + to * to)),
-          spread((1.0 / 45) * width * width * width * (4 * from * from + 7 * from * to + 4 * to * to)) {}
+        : width(to - from), centre(third * (from * from + from * to + to * to)),
+          spread(forty_fifth * width * width * width * (4 * from * from + 7 * from * to + 4 * to * to)) {}
 };
 
 struct SlipPiece {

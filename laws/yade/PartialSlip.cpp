@@ -18,6 +18,9 @@ constexpr std::size_t numbers_per_piece = 7;
 
 void PartialSlip::recall(gl::SlipHistory& history) const {
     history.axis = axis;
+    history.pending = pending;
+    history.limit_slope = limitSlope;
+    history.slides = slides;
     history.force_squared = forceSquared;
     history.pieces.count = 0;
     Real start = 0;
@@ -35,6 +38,9 @@ void PartialSlip::recall(gl::SlipHistory& history) const {
 
 void PartialSlip::keep(const gl::SlipHistory& history) {
     axis = history.axis;
+    pending = history.pending;
+    limitSlope = history.limit_slope;
+    slides = history.slides;
     forceSquared = history.force_squared;
     pieces.resize(numbers_per_piece * static_cast<std::size_t>(history.pieces.count));
     Real* p = pieces.data();

@@ -147,7 +147,7 @@ TEST(PartialSlip, loses_in_a_cycle_what_mindlin_and_deresiewicz_give) {
         };
         const double expected = loop_energy(share, limit, stiffness);
         // Work is the mean of two forces times a step, second order in the step: what is left at step zero.
-        const double coarse = cycle(800), fine = cycle(1600);
+        const double coarse = cycle(200), fine = cycle(400);
         EXPECT_NEAR((4 * fine - coarse) / 3 / expected, 1, 1e-6) << share;
     }
 }
@@ -267,8 +267,36 @@ TEST(PartialSlip, follows_two_thousand_springs_along_a_line) {
 
 TEST(PartialSlip, follows_two_thousand_springs_where_the_direction_turns) {
     for (unsigned seed = 0; seed < 20; ++seed) {
-        EXPECT_LT(error_on_random_legs(seed, true, false), 1e-2) << seed;
+        EXPECT_LT(error_on_random_legs(seed, true, false), 2e-3) << seed;
         EXPECT_LT(error_on_random_legs(seed, true, true), 1e-2) << seed;
+    }
+}
+
+TEST(PartialSlip, follows_two_thousand_springs_through_an_impact) {
+    // Pressed and released as in an impact while the shear swings: no two steps in the same ratio, so that
+    // each makes a piece of its own.
+    const int steps = 1000;
+    for (double swing : {2.0, 3.5, 5.0}) {
+        ManySprings many(2000, 1.0);
+        SlipPieces<slip_pieces> pieces;
+        for (int i = 1; i < steps; ++i) {
+            const double time = static_cast<double>(i) / steps;
+            const double depth = std::sin(detail::pi * time);
+            const Planar shift(2.0 / steps * std::cos(swing * time), 0);
+            many.advance(depth, shift, 1);
+            advance_slip_profile(pieces, std::sqrt(depth), shift, 1);
+            EXPECT_LT((many.integral() - pieces.integral()).norm(), 1e-4) << swing << ", " << time;
+        }
+    }
+}
+
+TEST(PartialSlip, waits_until_steps_add_up_without_being_seen_in_the_force) {
+    const double reach = 1.5 * mu * normal_force() / stuck_stiffness();
+    Contact<> large(overlap), small(overlap);
+    for (double leg : {0.7, -0.9, 0.5, -1.1}) {
+        large.shear(leg * reach, 500);
+        small.shear(leg * reach, 50000);
+        EXPECT_LT((large.force - small.force).norm(), 3 * slip_resolution * mu * normal_force());
     }
 }
 
@@ -394,6 +422,11 @@ TEST(PartialSlip, takes_over_the_force_that_another_law_has_left) {
             EXPECT_NEAR(loading_displacement(next.shear.norm(), limit, stuck_stiffness()) - from,
                         1e-3 * limit / stuck_stiffness(), 1e-9 * limit / stuck_stiffness());
         }
+        // Another law acts meanwhile and leaves another force.
+        memory.shear_force = 0.5 * left;
+        geometry.shear_increment.setZero();
+        const ContactForce later = Slip<>::step(geometry, quartz_pair(), Constant{mu}, memory, none);
+        EXPECT_LT((later.shear - 0.5 * left).norm(), 1e-12 * mu * normal_force()) << share;
     }
 }
 
