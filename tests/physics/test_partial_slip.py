@@ -104,8 +104,8 @@ def test_cycle_of_shear_loses_what_mindlin_and_deresiewicz_give(share):
     before = O.energy["grainFriction"]
     for distance in (-2 * amplitude, 2 * amplitude):
         shear(sphere, distance, 400)
-    # The mean of two forces times a step is off by a few parts in 1e4 at 400 steps a leg.
-    assert O.energy["grainFriction"] - before == pytest.approx(cycle_loss(share), rel=2e-3)
+    # 400 steps a leg; the plane is rigid to 1e-6, and YADE lengthens the shear by part of the overlap.
+    assert O.energy["grainFriction"] - before == pytest.approx(cycle_loss(share), rel=1e-4)
 
 
 def test_spring_that_sticks_as_a_whole_loses_nothing_in_such_a_cycle():
@@ -209,8 +209,7 @@ def test_slip_history_turns_with_its_contact(direction):
     for leg, force in zip(FURTHER_LEGS, expected):
         push(upper, turned(leg))
         after = np.array(O.interactions[lower, upper].phys.shearForce)
-        # Two ways of rounding may join other pieces: as far as eight pieces can tell.
-        assert after == pytest.approx(turned(force), abs=1e-3 * np.linalg.norm(force))
+        assert after == pytest.approx(turned(force), abs=1e-6 * np.linalg.norm(force))
 
 
 @pytest.mark.parametrize("suffix", [".xml", ".yade.gz"])

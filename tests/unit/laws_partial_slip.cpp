@@ -124,6 +124,11 @@ TEST(PartialSlip, slides_as_a_whole_at_the_displacement_that_mindlin_gives) {
     contact.shear(0.002 * onset, 1);
     EXPECT_TRUE(contact.sliding);
     EXPECT_NEAR(contact.force.norm() / limit, 1, 1e-12);
+    // However the last digit falls.
+    for (int i = 0; i < 100; ++i) {
+        contact.shear(0.01 * onset, 1, 0.02 * i);
+        EXPECT_TRUE(contact.sliding) << i;
+    }
 }
 
 TEST(PartialSlip, loses_in_a_cycle_what_mindlin_and_deresiewicz_give) {
