@@ -49,9 +49,9 @@ def draw_elastic_impact(axes: plt.Axes) -> None:
         found = maw.rebound(incidence, law)
         axes.plot(incidence, found, colour, label=law)
         tell(law, "Maw, Barber & Fawcett", found - expected)
-    for psi, words in ((1, "sticks first"), (4 * maw.CHI - 1, "slides throughout")):
+    for psi, top, words in ((1, 1.05, "sticks first"), (4 * maw.CHI - 1, 0.6, "slides throughout")):
         axes.axvline(psi, color="0.7", lw=0.8)
-        axes.annotate(words, (psi, 1.05), rotation=90, va="top", ha="right", color="0.4", size=8)
+        axes.annotate(words, (psi, top), rotation=90, va="top", ha="right", color="0.4", size=8)
     axes.set_xlabel(r"incidence $\psi_1$")
     axes.set_ylabel(r"rebound $\psi_2$")
     axes.set_title("elastic sphere on a plane, Poisson's ratio 0.3", size=10)

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -186,35 +187,42 @@ TEST(PartialSlip, pressed_and_sheared_in_a_fixed_ratio_below_friction_does_not_s
 
 // The same springs one by one: many of them, each with its own displacement.
 struct ManySprings {
-    std::vector<double> touch; // m
-    std::vector<Planar> tau;   // m
+    std::vector<double> touch;              // m
+    std::vector<std::array<double, 2>> tau; // m
     double width, depth = 0;
 
     ManySprings(int count, double deepest) : width(std::sqrt(deepest) / count) {
         for (int i = 0; i < count; ++i) {
             const double s = (i + 0.5) * width;
             touch.push_back(s * s);
-            tau.push_back(Planar::Zero());
+            tau.push_back({0, 0});
         }
     }
     void advance(double to, const Planar& shift, double limit_slope) {
         for (std::size_t i = 0; i < touch.size(); ++i) {
             if (touch[i] >= to) {
-                tau[i].setZero();
+                tau[i] = {0, 0};
                 continue;
             }
-            tau[i] += (touch[i] < depth ? 1 : (to - touch[i]) / (to - depth)) * shift;
-            const double limit = limit_slope * (to - touch[i]), length = tau[i].norm();
-            if (length > limit)
-                tau[i] *= limit / length;
+            const double part = touch[i] < depth ? 1 : (to - touch[i]) / (to - depth);
+            double &x = tau[i][0], &y = tau[i][1];
+            x += part * shift[0];
+            y += part * shift[1];
+            const double limit = limit_slope * (to - touch[i]), length = std::hypot(x, y);
+            if (length > limit) {
+                x *= limit / length;
+                y *= limit / length;
+            }
         }
         depth = to;
     }
     Planar integral() const {
-        Planar sum = Planar::Zero();
-        for (const Planar& t : tau)
-            sum += width * t;
-        return sum;
+        double x = 0, y = 0;
+        for (const auto& t : tau) {
+            x += width * t[0];
+            y += width * t[1];
+        }
+        return {x, y};
     }
 };
 
@@ -242,7 +250,7 @@ std::vector<Leg> random_legs(unsigned seed, bool turning, bool friction_varies) 
 
 // Largest difference of the force from that of the many springs, over the force at sliding.
 double error_on_random_legs(unsigned seed, bool turning, bool friction_varies) {
-    const int springs = 2000, steps = 100;
+    const int springs = 2000, steps = 60;
     ManySprings many(springs, 1.0);
     SlipPieces<slip_pieces> pieces;
     Leg at{0, 1, Planar::Zero()};
@@ -263,7 +271,7 @@ double error_on_random_legs(unsigned seed, bool turning, bool friction_varies) {
 }
 
 TEST(PartialSlip, follows_two_thousand_springs_along_a_line) {
-    for (unsigned seed = 0; seed < 20; ++seed) {
+    for (unsigned seed = 0; seed < 6; ++seed) {
         // The many springs themselves are off by about 1e-5.
         EXPECT_LT(error_on_random_legs(seed, false, false), 1e-4) << seed;
         EXPECT_LT(error_on_random_legs(seed, false, true), 2e-3) << seed;
@@ -271,7 +279,7 @@ TEST(PartialSlip, follows_two_thousand_springs_along_a_line) {
 }
 
 TEST(PartialSlip, follows_two_thousand_springs_where_the_direction_turns) {
-    for (unsigned seed = 0; seed < 20; ++seed) {
+    for (unsigned seed = 0; seed < 6; ++seed) {
         EXPECT_LT(error_on_random_legs(seed, true, false), 2e-3) << seed;
         EXPECT_LT(error_on_random_legs(seed, true, true), 1e-2) << seed;
     }
