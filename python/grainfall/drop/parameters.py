@@ -274,7 +274,7 @@ NUMERICS = (
         "incremental",
         "tangential force of the contact law",
         kind=str,
-        choices=("incremental", "report", "secant", "none"),
+        choices=("incremental", "mindlin-deresiewicz", "report", "secant", "none"),
     ),
 )
 
