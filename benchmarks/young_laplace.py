@@ -10,10 +10,10 @@ Along the meniscus with arc length l, angle phi to the axis, distance y from it 
     dx/dl = cos phi,  dy/dl = sin phi,  dphi/dl = cos(phi)/y + P
 
 It meets the sphere at half filling angle beta, y = sin beta, phi = pi/2 - beta - theta, and is followed from
-there to the neck, phi = 0. For a volume V and an angle beta, P is found from V; the separation s and the
-force F/(2 pi) = sin(beta) sin(beta + theta) + P sin(beta)^2/2 follow. With beta falling in steps of 1 %, s
-passes a maximum: the rupture distance. Angles above that of the maximum are the stable bridges; the force
-between them is interpolated by a cubic spline.
+there to the neck, phi = 0. That gives volume and separation, and the force F/(2 pi) = sin(beta)
+sin(beta + theta) + P sin(beta)^2/2. Newton's method finds beta and P for a volume and a separation; from
+contact the bridge is stretched by 5 % of the rupture distance at a time, in the end by 1 %, each solution
+starting the next, until there is none: the last is the longest bridge.
 """
 from __future__ import annotations
 
@@ -24,12 +24,11 @@ from pathlib import Path
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq, newton
+from scipy.optimize import brentq, fsolve
 
 VOLUMES = (1e-4, 1e-3, 1e-2, 5e-2, 8.5e-2)
 ANGLES_DEGREES = (0.0, 20.0, 40.0)
-FRACTIONS = (0.0, 0.1, 0.25, 0.5, 0.75, 0.9)  # of the rupture distance by Willett et al., Eq 15
+PERCENTS = (0, 10, 25, 50, 75, 90)  # of the rupture distance by Willett et al., Eq 15
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,13 @@ def bridge(filling_angle: float, suction: float, contact_angle: float) -> Bridge
 
     neck.terminal = axis.terminal = True
     solution = solve_ivp(
-        backwards, (0, 20), (0, radius, slope, 0), "DOP853", events=(neck, axis), rtol=1e-9, atol=1e-12
+        backwards,
+        (0, 20),
+        (0, radius, slope, 0),
+        "DOP853",
+        events=(neck, axis),
+        rtol=1e-10,
+        atol=1e-13,
     )
     if len(solution.t_events[0]) == 0:  # no neck: more liquid than any bridge of this angle holds
         return Bridge(filling_angle, math.inf, math.inf, math.nan)
@@ -72,42 +77,61 @@ def bridge(filling_angle: float, suction: float, contact_angle: float) -> Bridge
     rise = math.cos(filling_angle)
     cap = math.pi / 3 * (2 - 3 * rise + rise**3)
     force = radius * math.sin(filling_angle + contact_angle) + suction * radius**2 / 2
-    return Bridge(
-        filling_angle, 2 * (half_length - 1 + rise), 2 * (half_volume - cap), force
-    )
+    return Bridge(filling_angle, 2 * (half_length - 1 + rise), 2 * (half_volume - cap), force)
 
 
-def of_volume(filling_angle: float, volume: float, contact_angle: float, guess: float) -> tuple[Bridge, float]:
-    """The bridge of this half filling angle [rad] that holds this volume, and its suction."""
-    suction = newton(
-        lambda p: bridge(filling_angle, p, contact_angle).volume / volume - 1,
-        guess,
-        x1=guess * (1 + 1e-4) + 1e-4,
-        tol=1e-9,
+def touching(filling_angle: float, contact_angle: float) -> tuple[Bridge, float]:
+    """The bridge of this half filling angle [rad] between touching spheres, and its suction."""
+    suction = brentq(
+        lambda p: min(bridge(filling_angle, p, contact_angle).separation, 10.0),
+        -1.5,
+        4 / filling_angle**2,
+        xtol=1e-10,
+        rtol=1e-12,
     )
     return bridge(filling_angle, suction, contact_angle), suction
 
 
-def family(volume: float, contact_angle: float) -> list[Bridge]:
-    """Bridges of this volume from a slight overlap of the spheres to past the longest one."""
-    # Near contact the liquid is a ring in a gap of width beta^2, which it fills to about (V/2)^(1/4).
-    beta = 1.1 * (volume / 2) ** 0.25 * (1 + 0.3 * contact_angle)
-    guess = 2 * math.cos(contact_angle) / beta**2 - 1 / beta
-    bridges: list[Bridge] = []
-    while len(bridges) < 3 or bridges[-1].separation > bridges[-2].separation:
-        found, guess = of_volume(beta, volume, contact_angle, guess)
-        bridges.append(found)
-        beta *= 0.99
+def contact(volume: float, contact_angle: float) -> np.ndarray:
+    """Half filling angle [rad] and suction of the bridge of this volume between touching spheres."""
+    # The liquid is a ring in a gap of width y^2: V is a little below pi/2 beta^4.
+    least = (2 * volume / math.pi) ** 0.25
+    beta = brentq(
+        lambda b: touching(b, contact_angle)[0].volume / volume - 1,
+        0.8 * least,
+        1.3 * least,
+        xtol=1e-10,
+    )
+    return np.array([beta, touching(beta, contact_angle)[1]])
+
+
+def stretched(volume: float, contact_angle: float) -> dict[int, Bridge]:
+    """Bridges of this volume by separation in % of the rupture distance, until there are no more."""
+    scale = willett_rupture_distance(volume, contact_angle)
+    previous = found = contact(volume, contact_angle)
+    bridges: dict[int, Bridge] = {}
+    for percent in (*range(0, 90, 5), *range(90, 150)):
+
+        def excess(unknowns: np.ndarray) -> tuple[float, float]:
+            # In these variables both unknowns are of order one, and the suction may change sign.
+            candidate = bridge(
+                found[0] * unknowns[0], found[1] + abs(found[1]) * unknowns[1], contact_angle
+            )
+            missing = candidate.separation / scale - percent / 100
+            return candidate.volume / volume - 1, missing
+
+        guess = (found - previous) / np.abs(found) if percent <= 90 else np.zeros(2)
+        step, *_ = fsolve(excess, guess + (1, 0), xtol=1e-8, full_output=True)
+        if max(map(abs, excess(step))) > 1e-6:
+            break
+        previous, found = found, np.array([found[0] * step[0], found[1] + abs(found[1]) * step[1]])
+        bridges[percent] = bridge(found[0], found[1], contact_angle)
     return bridges
 
 
 def merging_volume(contact_angle: float) -> float:
     """Volume at which bridges of three touching spheres meet: half filling angle 30 degrees."""
-    beta = math.pi / 6
-    suction = brentq(
-        lambda p: min(bridge(beta, p, contact_angle).separation, 10.0), -0.5, 50, xtol=1e-12
-    )
-    return bridge(beta, suction, contact_angle).volume
+    return touching(math.pi / 6, contact_angle)[0].volume
 
 
 def willett_rupture_distance(volume: float, contact_angle: float) -> float:
@@ -120,18 +144,14 @@ def table() -> list[tuple[float, ...]]:
     """Rows: volume, contact angle [degrees], fraction of Eq 15, separation, force, longest bridge."""
     rows = []
     for degrees in ANGLES_DEGREES:
-        theta = math.radians(degrees)
         for volume in VOLUMES:
-            bridges = family(volume, theta)
-            assert bridges[0].separation < 0, "the family must begin with an overlap"
-            stable = bridges[: int(np.argmax([b.separation for b in bridges]))]
-            force = CubicSpline([b.separation for b in stable], [b.force for b in stable])
-            longest = max(b.separation for b in bridges)
-            for fraction in FRACTIONS:
-                separation = fraction * willett_rupture_distance(volume, theta)
-                if separation < stable[-1].separation:
+            bridges = stretched(volume, math.radians(degrees))
+            longest = max(one.separation for one in bridges.values())
+            for percent in PERCENTS:
+                if percent in bridges:
+                    one = bridges[percent]
                     rows.append(
-                        (volume, degrees, fraction, separation, float(force(separation)), longest)
+                        (volume, degrees, percent / 100, one.separation, one.force, longest)
                     )
     return rows
 
