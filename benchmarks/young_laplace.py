@@ -146,12 +146,13 @@ def table() -> list[tuple[float, ...]]:
     for degrees in ANGLES_DEGREES:
         for volume in VOLUMES:
             bridges = stretched(volume, math.radians(degrees))
+            scale = willett_rupture_distance(volume, math.radians(degrees))
             longest = max(one.separation for one in bridges.values())
             for percent in PERCENTS:
                 if percent in bridges:
                     one = bridges[percent]
                     rows.append(
-                        (volume, degrees, percent / 100, one.separation, one.force, longest)
+                        (volume, degrees, percent / 100, percent / 100 * scale, one.force, longest)
                     )
     return rows
 

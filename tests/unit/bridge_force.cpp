@@ -52,7 +52,8 @@ TEST(BridgeForce, fit_follows_the_young_laplace_equation_within_the_error_of_the
     ASSERT_GT(rows.size(), 80u);
     for (const Exact& row : rows) {
         const double error = relative_force<WillettNumeric>(row) / row.force - 1;
-        const double allowed = row.fraction < 0.8 ? 0.03 : 0.10;
+        const double near = row.angle > 0 ? 0.04 : 0.025, far = row.angle > 0 ? 0.14 : 0.10;
+        const double allowed = row.fraction < 0.8 ? near : far;
         EXPECT_LT(std::abs(error), allowed)
             << "V* " << row.volume << ", theta " << row.angle << ", at " << row.fraction;
     }
@@ -135,7 +136,7 @@ TEST(BridgeForce, scales_with_size_and_surface_tension) {
     }
 }
 
-TEST(BridgeForce, drops_from_surface_tension_at_a_flat_wall_with_twice_the_radius) {
+TEST(BridgeForce, holds_a_grain_on_a_flat_wall_with_twice_the_radius) {
     const double grain = 4e-4;
     EXPECT_DOUBLE_EQ(equal_sphere_radius(grain, infinite), 2 * grain);
     EXPECT_DOUBLE_EQ(equal_sphere_radius(infinite, grain), 2 * grain);
