@@ -61,7 +61,8 @@ struct LiquidBridge {
         memory.separation = separation;
         memory.attraction = apart ? 0 : Form::force(parameters.curve, separation);
         if constexpr (Film::active) {
-            memory.viscous_force = apart ? 0 : -Film::damping(parameters.film, separation) * normal_velocity;
+            memory.viscous_force =
+                apart ? 0 : -Film::damping(parameters.film, separation, time_step) * normal_velocity;
         }
         if constexpr (Energy::active) {
             const double displacement =

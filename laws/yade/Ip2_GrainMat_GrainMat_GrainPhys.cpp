@@ -152,7 +152,8 @@ void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const s
                                 : dashpotAttraction ? DashpotForm::attractive
                                                     : DashpotForm::repulsive;
     phys->bridge =
-        LiquidBridge::between({mat1, body1, radius1}, {mat2, body2, radius2}, std::sqrt(phys->loadScale));
+        LiquidBridge::between({mat1, body1, radius1, contact_mass(body1, scene)},
+                              {mat2, body2, radius2, contact_mass(body2, scene)}, std::sqrt(phys->loadScale));
     BridgeKind bridge = BridgeKind::none;
     if (phys->bridge) {
         bridge = phys->bridge->kind();

@@ -71,10 +71,12 @@ shared_ptr<LiquidBridge> LiquidBridge::between(const BridgeSide& first, const Br
     bridge->decay = Vector3r(curve.f2, curve.f3, curve.f4);
     // The viscous force goes with R^2 and v/s: it scales by itself, but for the cutoff.
     const Real cutoff = coarsening * std::max(mat1.lubricationCutoff, mat2.lubricationCutoff);
-    const gb::FilmParameters film = gb::SqueezeFilm::parameters(radius, volume, water.viscosity, cutoff);
+    const gb::FilmParameters film = gb::SqueezeFilm::parameters(
+        radius, volume, water.viscosity, cutoff, grainfall::laws::effective_mass(first.mass, second.mass));
     bridge->filmStrength = film.strength;
     bridge->filmCutoff = film.cutoff;
     bridge->filmArea = film.area;
+    bridge->filmMass = film.mass;
     return bridge;
 }
 

@@ -21,6 +21,7 @@ struct BridgeSide {
     const GrainMat& material;
     const Body& body;
     Real radius; // m, infinite for a flat body
+    Real mass;   // kg that resists a push, infinite for a held body
 };
 
 class LiquidBridge : public Serializable {
@@ -36,7 +37,7 @@ public:
 
     grainfall::laws::bridge::BridgeParameters parameters() const {
         return {{contactForce, inverseLength, decay[0], decay[1], decay[2]},
-                {filmStrength, filmCutoff, filmArea},
+                {filmStrength, filmCutoff, filmArea, filmMass},
                 ruptureDistance};
     }
     grainfall::laws::bridge::BridgeMemory memory() const {
@@ -67,6 +68,7 @@ public:
         ((Real, filmStrength, 0, Attr::readonly, "6 pi eta R*^2 [N s]; 0: no viscous force."))
         ((Real, filmCutoff, 0, Attr::readonly, "separation below which the viscous force grows no more [m]."))
         ((Real, filmArea, 0, Attr::readonly, "2 V/(pi R) [m2]. Source: Pitois et al. 2000."))
+        ((Real, filmMass, 0, Attr::readonly, "effective mass of the pair [kg]; the viscous force is held at what stops a quarter of the approach in a step."))
         ((bool, formed, false, , "have the bodies touched since the last rupture? Only then does the bridge act."))
         ((Real, separation, NaN, Attr::readonly, "distance of the surfaces in the last step [m], negative on overlap."))
         ((Real, attraction, 0, Attr::readonly, "capillary force of the last step [N]; not part of normalForce."))

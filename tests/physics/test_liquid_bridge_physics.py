@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from yade import O, utils
 
+from grainfall.materials import PENDULAR_LIMIT, check_scene
+
 R = bs.RADIUS
 MOISTURE = 0.01
 GRAVITY = 9.81
@@ -187,6 +189,20 @@ def test_squeeze_film_is_reynolds_with_the_factor_for_little_liquid():
         assert cs.force_on(grain)[2] == pytest.approx(viscous - float(bridge.force(gap)), rel=1e-9)
 
 
+def test_honey_between_grains_stops_them_and_makes_no_energy():
+    """The step does not resolve its damping, by far: still nothing is thrown back."""
+    law = free_pair(0, 0.6, liquidViscosity=10.0)
+    energy = bs.kinetic_energy()
+    speeds = []
+    for _ in range(60):
+        O.run(20, True)
+        assert bs.kinetic_energy() < energy * (1 + 1e-9)
+        speeds.append((O.bodies[1].state.vel - O.bodies[0].state.vel)[2])
+    assert law.water()["bridges"] == 1
+    assert speeds[0] < -0.5
+    assert abs(speeds[-1]) < 0.05
+
+
 def moist_heap(moisture: float, **attributes):
     """125 grains over the floor of a box; returns the law."""
     O.trackEnergy = True
@@ -239,6 +255,18 @@ def test_budget_tells_merged_bridges_and_overdrawn_grains():
     assert water["overdrawnGrains"] > 10
     assert water["deficit"] > 0
     assert water["total"] == pytest.approx(water["inBridges"] + water["onGrains"], rel=1e-12)
+
+
+@pytest.mark.parametrize("factor, beyond", [(0.999, 0), (1.001, 1)])
+def test_law_and_check_of_the_scene_mean_the_same_pendular_limit(factor, beyond):
+    moisture = factor * PENDULAR_LIMIT * R**3 / (2 * bs.grain_share(1.0))
+    O.materials.append(bs.moist(moisture, label="grain"))
+    cs.add_sphere((0, 0, -R), R, "grain", fixed=True)
+    cs.add_sphere((0, 0, R - 1e-8), R, "grain")
+    law = bs.set_engines()
+    O.run(1, True)
+    assert law.water()["beyondPendular"] == beyond
+    assert len(check_scene()) == beyond
 
 
 def test_what_runs_is_told_by_the_law():

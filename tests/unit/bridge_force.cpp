@@ -148,27 +148,34 @@ TEST(BridgeForce, holds_a_grain_on_a_flat_wall_with_twice_the_radius) {
 
 TEST(SqueezeFilm, is_reynolds_film_while_the_gap_is_small) {
     const double radius = 3.6e-4, viscosity = 1e-3, gap = 1e-6;
-    const FilmParameters film = SqueezeFilm::parameters(radius, 1e-12, viscosity, 1e-9);
+    const FilmParameters film = SqueezeFilm::parameters(radius, 1e-12, viscosity, 1e-9, infinite);
     const double reynolds = 1.5 * pi * viscosity * radius * radius / gap; // equal spheres
     const double x = 1 - gap / std::sqrt(gap * gap + 2e-12 / (pi * radius));
-    EXPECT_NEAR(SqueezeFilm::damping(film, gap) / (reynolds * x * x), 1, 1e-12);
-    EXPECT_NEAR(SqueezeFilm::damping(film, gap) / reynolds, 1, 0.06);
+    EXPECT_NEAR(SqueezeFilm::damping(film, gap, 1e-9) / (reynolds * x * x), 1, 1e-12);
+    EXPECT_NEAR(SqueezeFilm::damping(film, gap, 1e-9) / reynolds, 1, 0.06);
     EXPECT_NEAR(reynolds, 6.1e-4, 0.05e-4); // N at 1 m/s
 }
 
 TEST(SqueezeFilm, is_finite_at_contact_and_falls_with_the_gap) {
-    const FilmParameters film = SqueezeFilm::parameters(3.6e-4, 1e-12, 1e-3, 1e-6);
-    const double contact = SqueezeFilm::damping(film, 0);
+    const FilmParameters film = SqueezeFilm::parameters(3.6e-4, 1e-12, 1e-3, 1e-6, infinite);
+    const double contact = SqueezeFilm::damping(film, 0, 1e-9);
     EXPECT_TRUE(std::isfinite(contact));
-    EXPECT_EQ(SqueezeFilm::damping(film, -1e-6), contact);
-    double before = SqueezeFilm::damping(film, 1e-6);
+    EXPECT_EQ(SqueezeFilm::damping(film, -1e-6, 1e-9), contact);
+    double before = SqueezeFilm::damping(film, 1e-6, 1e-9);
     EXPECT_EQ(before, contact);
     for (double gap = 2e-6; gap < 1e-3; gap *= 1.5) {
-        const double now = SqueezeFilm::damping(film, gap);
+        const double now = SqueezeFilm::damping(film, gap, 1e-9);
         EXPECT_LT(now, before);
         EXPECT_GE(now, 0);
         before = now;
     }
+}
+
+TEST(SqueezeFilm, of_a_thick_liquid_never_stops_more_than_a_quarter_of_the_approach_in_a_step) {
+    const double mass = 2.6e-7, time_step = 1e-6;
+    const FilmParameters film = SqueezeFilm::parameters(3.6e-4, 1e-12, 10, 1e-6, mass);
+    EXPECT_DOUBLE_EQ(SqueezeFilm::damping(film, 0, time_step) * time_step / mass, 0.25);
+    EXPECT_LT(SqueezeFilm::damping(film, 0, 1e-9) * 1e-9 / mass, 0.25);
 }
 
 WaterSource grain_source(double share, double tension = 0.07) {

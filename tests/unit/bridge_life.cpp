@@ -17,7 +17,8 @@ constexpr double radius = 3.6e-4, volume = 0.05 * 4.6656e-11, tension = 0.0728;
 
 template <class Form>
 BridgeParameters wetted(double viscosity = 0) {
-    return {Form::curve(radius, volume, tension, 0), SqueezeFilm::parameters(radius, volume, viscosity, 1e-6),
+    return {Form::curve(radius, volume, tension, 0),
+            SqueezeFilm::parameters(radius, volume, viscosity, 1e-6, 1.3e-7),
             rupture_distance(radius, volume, 0)};
 }
 
