@@ -12,8 +12,8 @@
 // at nine tenths (theta = 0, 1e-4 <= V* <= 0.085), to 4 % and 13 % at 20 and 40 degrees. The closed form is 4
 // to 25 % high at contact and 10 to 25 % low from half the rupture distance on. Stated range: V* <= 0.1,
 // theta <= 50 degrees. Outside 1e-5 <= V* <= 1 the coefficients are those of the nearer end; below it the
-// printed ones would let the force rise with the separation. So the force falls steadily from its value at
-// contact, which is also the force on overlap.
+// printed ones would let the force rise with the separation. So from V* = 1e-6 on the force falls steadily
+// from its value at contact, which is also the force on overlap.
 //
 // Everything that depends on V* and theta is worked out when a bridge is made.
 #pragma once

@@ -53,7 +53,6 @@ NUMBERS = [
     (GrainMat, "gravimetricMoisture", 2.3, "2.3", "[0, 1]"),
     (GrainMat, "gravimetricMoisture", NAN, "nan", "[0, 1]"),
     (GrainMat, "bridgeModel", "wet", "wet", "'willett-closed'"),
-    (GrainMat, "bridgeVolume", -1e-12, "-1e-12", ">= 0"),
     (GrainMat, "bridgesPerGrain", 0.0, "0", ">= 1"),
     (GrainMat, "bridgesPerGrain", NAN, "nan", ">= 1"),
     (GrainMat, "surfaceTension", 0.0, "0", "> 0"),
@@ -173,6 +172,10 @@ LISTS = {
         lambda: CombinedFriction("rough", 0.3),
         ("CombinedFriction.first", "rough", "friction curve"),
     ),
+    "a bridge of less than nothing": (
+        lambda: GrainMat(bridgeVolume=-1e-12),
+        ("GrainMat.bridgeVolume", "-1e-12", ">= 0"),
+    ),
     "a pair of one": (lambda: GrainPair(first="sand"), ("GrainPair.second", "''", "label")),
     "a pair that gains energy": (
         lambda: GrainPair("sand", "steel", restitution=1.5),
@@ -215,7 +218,7 @@ def test_pair_of_an_unknown_label_is_found_by_the_check_of_the_scene():
     [
         (lambda: dict(friction=TableFriction([1], [0, 0.1], [[0.5, 0.4]])), "moisture"),
         (lambda: dict(friction=0.4, referenceRadius=1e-4), "referenceRadius"),
-        (lambda: dict(gravimetricMoisture=0.023), "pendular"),
+        (lambda: dict(gravimetricMoisture=0.023, density=2650), "pendular"),
     ],
     ids=[
         "moisture curve in a dry scene",
