@@ -10,6 +10,7 @@ velocities, no contacts), makes its contacts, and is timed. Ratios to the stock 
 slip to the incremental law, are formed within a round; the median over the rounds is given, with
 the quartiles. The step is measured in processor time, which other programs on the machine disturb
 least; the interaction loop by YADE's own timers.
+Liquid bridges are compared with the same law dry.
 """
 from __future__ import annotations
 
@@ -96,6 +97,7 @@ LAWS: list[tuple[str, Callable[[], Functors], dict, str]] = [
         {
             "restitution": RESTITUTION,
             "gravimetricMoisture": 0.023,
+            "bridgeModel": "none",
             "friction": lambda: ExponentialFriction(
                 mu0=0.8,
                 muInf=0.2,
@@ -105,12 +107,31 @@ LAWS: list[tuple[str, Callable[[], Functors], dict, str]] = [
         },
         "stock, damped",
     ),
+    (
+        "ours, damped, liquid bridges",
+        ours,
+        {"restitution": RESTITUTION, "gravimetricMoisture": 0.01},
+        "ours, damped",
+    ),
+    (
+        "ours, damped, liquid bridges with film",
+        ours,
+        {"restitution": RESTITUTION, "gravimetricMoisture": 0.01, "liquidViscosity": 1e-3},
+        "ours, damped",
+    ),
 ]
 
 
 def set_material(attributes: dict) -> None:
     """Give the one material of the scene the values of this law, and the defaults for the rest."""
-    values = {"restitution": 1.0, "gravimetricMoisture": 0.0, "friction": None, **attributes}
+    values = {
+        "restitution": 1.0,
+        "gravimetricMoisture": 0.0,
+        "bridgeModel": "willett",
+        "liquidViscosity": 0.0,
+        "friction": None,
+        **attributes,
+    }
     for name, value in values.items():
         setattr(O.materials[0], name, value() if callable(value) else value)
 

@@ -12,6 +12,12 @@ void GrainPhys::resolve_friction() {
     resolved_ = friction ? friction->resolve(moisture, loadScale) : ResolvedFriction();
 }
 
+void GrainPhys::part() {
+    kn = ks = 0;
+    normalForce = shearForce = shearElastic = Vector3r::Zero();
+    isSliding = false;
+}
+
 FrictionForm GrainPhys::simplified_friction() {
     namespace friction_kernels = grainfall::laws::friction;
     FrictionForm form = form_of(*resolved_);

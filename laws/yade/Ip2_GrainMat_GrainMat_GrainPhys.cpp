@@ -14,6 +14,7 @@
 namespace yade {
 
 YADE_PLUGIN((GrainPair)(Ip2_GrainMat_GrainMat_GrainPhys));
+CREATE_LOGGER(Ip2_GrainMat_GrainMat_GrainPhys);
 
 // Defined here so that virtual tables and Python registration are compiled once.
 GrainPair::~GrainPair() = default;
@@ -104,6 +105,16 @@ Real Ip2_GrainMat_GrainMat_GrainPhys::pair_restitution(const GrainMat& m1, const
                        m2.restitution);
 }
 
+void Ip2_GrainMat_GrainMat_GrainPhys::warn_beyond_pendular(const LiquidBridge& bridge) {
+    if (bridge.relativeVolume <= gl::bridge::largest_pendular_volume || warned_.exchange(true))
+        return;
+    LOG_WARN("liquid bridge of relative volume "
+             << bridge.relativeVolume << ": above " << gl::bridge::largest_pendular_volume
+             << " neighbouring bridges merge (beyond the pendular regime), and "
+             << gl::bridge::largest_fitted_volume
+             << " ends the range of the force; law.water() tells the share.");
+}
+
 void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2,
                                          const shared_ptr<Interaction>& interaction) {
     if (interaction->phys)
@@ -140,7 +151,15 @@ void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const s
     const DashpotForm dashpot = restitution == 1    ? DashpotForm::none
                                 : dashpotAttraction ? DashpotForm::attractive
                                                     : DashpotForm::repulsive;
-    phys->contactClass = ContactClass(form, dashpot).index;
+    phys->bridge =
+        LiquidBridge::between({mat1, body1, radius1, contact_mass(body1, scene)},
+                              {mat2, body2, radius2, contact_mass(body2, scene)}, std::sqrt(phys->loadScale));
+    BridgeKind bridge = BridgeKind::none;
+    if (phys->bridge) {
+        bridge = phys->bridge->kind();
+        warn_beyond_pendular(*phys->bridge);
+    }
+    phys->contactClass = ContactClass(form, dashpot, bridge).index;
     interaction->phys = phys;
 }
 

@@ -5,6 +5,8 @@
 #include <laws/yade/GrainMat.hpp>
 #include <laws/yade/GrainPhys.hpp>
 
+#include <atomic>
+
 #include <core/Dispatching.hpp>
 
 namespace yade {
@@ -53,7 +55,7 @@ public:
         "Creates :yref:`GrainPhys` from two :yref:`GrainMat`. Walls, boxes and facets count as flat (infinite radius) whatever "
         "radius their geometry functor reports, so that they have Hertz's full stiffness; non-spherical grains (level sets, "
         "polyhedra) count with the radius of the sphere of equal volume (MR-2629, below Eq 3). A contact is as wet as the wetter "
-        "of its materials.",
+        "of its materials. Where there is water the contact gets a :yref:`LiquidBridge`.",
         ((vector<shared_ptr<Serializable>>, pairs, , , "list of :yref:`GrainPair`: explicit values for named pairs of materials."))
         ((std::string, frictionRule, "min", , "friction of unlike materials without a GrainPair: 'min', 'max', 'mean' or 'geometric' of the two coefficients at the contact's load."))
         ((std::string, restitutionRule, "mean", , "restitution of unlike materials without a GrainPair: 'min', 'max', 'mean' or 'geometric'."))
@@ -67,7 +69,13 @@ public:
     );
     // clang-format on
 
+    DECLARE_LOGGER;
+
 private:
+    std::atomic<bool> warned_{false};
+
+    /// Says once that the scene is too wet for bridges of their own.
+    void warn_beyond_pendular(const LiquidBridge& bridge);
     const GrainPair* explicit_pair(const GrainMat& m1, const GrainMat& m2) const;
     shared_ptr<FrictionCurve> pair_friction(const GrainMat& m1, const GrainMat& m2,
                                             const GrainPair* pair) const;

@@ -4,6 +4,7 @@
 #include <laws/yade/contact_kernels.hpp>
 #include <laws/yade/effects.hpp>
 #include <laws/yade/stored_energy.hpp>
+#include <laws/yade/water_budget.hpp>
 
 #include <core/EnergyTracker.hpp>
 #include <core/Omega.hpp>
@@ -48,17 +49,28 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
     kernels_ = {&pair.plain, &pair.booking};
 }
 
+void Law2_ScGeom_GrainPhys_HertzMindlin::name_energies() {
+    // All names first and by one thread: adding a name may move the accumulators under another thread's
+    // feet.
+    const std::lock_guard<std::mutex> lock(energy_mutex_);
+    EnergyTracker& energy = *scene->energy;
+    energy.findId("grainFriction", frictionIx, false, true);
+    energy.findId("grainViscous", viscousIx, false, true);
+    energy.findId("grainRescaling", rescalingIx, false, true);
+    energy.findId("grainBridge", bridgeIx, false, true);
+    energy_named_.store(true, std::memory_order_release);
+}
+
+void Law2_ScGeom_GrainPhys_HertzMindlin::book_bridge(Real work) {
+    if (!energy_named_.load(std::memory_order_acquire))
+        name_energies();
+    scene->energy->add(work, "grainBridge", bridgeIx, false);
+}
+
 void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real rescaling) {
     EnergyTracker& energy = *scene->energy;
-    if (!energy_named_.load(std::memory_order_acquire)) {
-        // All names first and by one thread: adding a name may move the accumulators under another thread's
-        // feet.
-        const std::lock_guard<std::mutex> lock(energy_mutex_);
-        energy.findId("grainFriction", frictionIx, false, true);
-        energy.findId("grainViscous", viscousIx, false, true);
-        energy.findId("grainRescaling", rescalingIx, false, true);
-        energy_named_.store(true, std::memory_order_release);
-    }
+    if (!energy_named_.load(std::memory_order_acquire))
+        name_energies();
     if (friction != 0)
         energy.add(friction, "grainFriction", frictionIx, false);
     if (viscous != 0)
@@ -72,7 +84,12 @@ boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy() const {
     boost::python::dict energies;
     energies["normal"] = stored.normal;
     energies["shear"] = stored.shear;
+    energies["bridge"] = stored.bridge;
     return energies;
+}
+
+boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::water() const {
+    return water_budget(*Omega::instance().getScene());
 }
 
 boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::effects() const {

@@ -29,12 +29,22 @@ public:
     /// One kernel for each contact class.
     using KernelTable = std::array<Kernel, ContactClass::count>;
 
+    /// The kernel that would serve this contact without its bridge.
+    Kernel dry_kernel(const GrainPhys& phys, bool booking) const {
+        const int dry = ContactClass(phys.contactClass).dry().index;
+        return (*kernels_[booking])[static_cast<std::size_t>(dry)];
+    }
+
     /// Books energies [J] into O.energy; safe from all threads.
     void book(Real friction, Real viscous, Real rescaling);
+    /// Work that went into a bridge which has ruptured.
+    void book_bridge(Real work);
 
     /// What the law computes in the present scene, each with the reason: {effect: reason}.
     boost::python::dict effects() const;
-    /// {'normal': J, 'shear': J} stored in the contacts at this moment.
+    /// Where the water of the scene is; see water_budget.hpp.
+    boost::python::dict water() const;
+    /// {'normal': J, 'shear': J, 'bridge': J} stored in the contacts at this moment.
     boost::python::dict elastic_energy() const;
 
     FUNCTOR2D(ScGeom, GrainPhys);
@@ -42,13 +52,14 @@ public:
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Law2_ScGeom_GrainPhys_HertzMindlin, LawFunctor,
         "Hertz-Mindlin contact with friction that may fall with load and moisture (MR-2629, Eq 3-6). Which kernel serves a contact is "
         "decided once, from these attributes and the contact's materials; :yref:`effects<Law2_ScGeom_GrainPhys_HertzMindlin.effects>` "
-        "tells what runs and why. With O.trackEnergy the dissipated energies are booked into O.energy as grainFriction, grainViscous and "
-        "grainRescaling.",
+        "tells what runs and why. With O.trackEnergy the dissipated energies are booked into O.energy as grainFriction, grainViscous, "
+        "grainRescaling and grainBridge.",
         ((std::string, normalLaw, "hertz", , "'hertz': 4/3 E* sqrt(R*) overlap^1.5; 'report': MR-2629 Eq 3 as printed, half of that."))
         ((std::string, tangentialLaw, "incremental", , "'incremental': Mindlin's stiffness, shear force rescaled when the stiffness falls, so that no energy is made; 'mindlin-deresiewicz': partial slip, from the rim of the contact inwards (Mindlin & Deresiewicz 1953, by the method of Popov & Hess 2015); 'report': MR-2629 Eq 4-5 as printed; 'secant': stiffness times total tangential displacement (the law of Chung & Ooi's reference codes; makes energy on normal loading); 'none': frictionless."))
         ((int, frictionIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, viscousIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, rescalingIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
+        ((int, bridgeIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ,
         choose_kernels();
         ,
@@ -59,7 +70,13 @@ public:
         .add_property("effects", &Law2_ScGeom_GrainPhys_HertzMindlin::effects,
             "What the law computes in the present scene, each with the reason: {effect: reason}.")
         .def("elasticEnergy", &Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy,
-            "Energy stored in the contacts now: {'normal': J, 'shear': J}.")
+            "Energy stored in the contacts now: {'normal': J, 'shear': J, 'bridge': J}.")
+        .def("water", &Law2_ScGeom_GrainPhys_HertzMindlin::water,
+            "Where the water of the scene is now [m3]: {'total': carried by the grains by their moisture, 'external': in bridges beyond "
+            "that (stated bridgeVolume of bodies without moisture), 'inBridges', 'onGrains': total + external - inBridges, 'bridges': "
+            "their number, 'meanRelativeVolume': mean V/R^3, 'beyondPendular': share of bridges above V/R^3 = 0.0577, where neighbours "
+            "merge, 'beyondFit': share above 0.1, where the force is extrapolated, 'overdrawnGrains': grains that gave more than they "
+            "carried, 'deficit': by how much}.")
     );
     // clang-format on
     DECLARE_LOGGER;
@@ -69,6 +86,7 @@ private:
     std::array<const KernelTable*, 2> kernels_ = {};
     std::mutex energy_mutex_;
     std::atomic<bool> energy_named_{false};
+    void name_energies();
 
     void choose_kernels();
 };

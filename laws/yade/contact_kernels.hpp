@@ -5,6 +5,7 @@
 #include <laws/hertz_mindlin.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 #include <laws/yade/contact_rotation.hpp>
+#include <laws/yade/wet_contact.hpp>
 
 #include <core/Body.hpp>
 #include <core/Cell.hpp>
@@ -167,6 +168,7 @@ struct TableMaker {
         fill<gl::NoDamping>(result, DashpotForm::none);
         fill<gl::RepulsiveDashpot>(result, DashpotForm::repulsive);
         fill<gl::AttractiveDashpot>(result, DashpotForm::attractive);
+        put_wet_kernels(result, Energy::active);
         return result;
     }
 };

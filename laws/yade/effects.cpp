@@ -11,6 +11,7 @@
 #include <core/Scene.hpp>
 
 #include <array>
+#include <cmath>
 #include <sstream>
 
 namespace yade {
@@ -41,6 +42,11 @@ const char* name_of(FrictionForm form) {
     return "friction";
 }
 
+const char* name_of(BridgeKind kind) {
+    const bool closed = kind == BridgeKind::willett_closed || kind == BridgeKind::willett_closed_viscous;
+    return closed ? "liquid bridges: willett-closed" : "liquid bridges: willett";
+}
+
 /// Collects effects; several materials that ask for one effect share its line.
 class EffectList {
 public:
@@ -56,17 +62,29 @@ private:
     boost::python::dict effects_;
 };
 
+void add_bridges(EffectList& list, const GrainMat& material, const std::string& name) {
+    const std::string source = std::isnan(material.bridgeVolume)
+                                   ? "gravimetricMoisture " + number(material.gravimetricMoisture)
+                                   : "bridgeVolume " + number(material.bridgeVolume) + " m3";
+    list.add("liquid bridges: " + material.bridgeModel, name + ": " + source);
+    if (material.liquidViscosity > 0)
+        list.add("viscous film in bridges",
+                 name + ": liquidViscosity " + number(material.liquidViscosity) + " Pa s");
+}
+
 void add_material(EffectList& list, const GrainMat& material, const std::string& name, bool frictional) {
     const auto curve = material.friction_curve();
     if (material.restitution < 1)
         list.add("viscous damping", name + ": restitution " + number(material.restitution));
+    if (material.has_bridges())
+        add_bridges(list, material, name);
     if (!frictional)
         return;
     list.add(name_of(form_of(curve->at_moisture(material.gravimetricMoisture))), name);
     if (material.gravimetricMoisture > 0 && curve->depends_on_moisture())
         list.add("moisture in friction",
                  name + ": gravimetricMoisture " + number(material.gravimetricMoisture));
-    if (material.referenceRadius > 0 && curve->depends_on_load())
+    if (material.referenceRadius > 0 && (curve->depends_on_load() || material.has_bridges()))
         list.add("load scaling", name + ": referenceRadius " + number(material.referenceRadius) + " m");
 }
 
@@ -89,6 +107,8 @@ void add_contacts(EffectList& list, const Scene& scene, bool frictional) {
             list.add(name_of(kind.friction()), reason);
         if (kind.dashpot() != DashpotForm::none)
             list.add("viscous damping", reason);
+        if (kind.bridge() != BridgeKind::none)
+            list.add(name_of(kind.bridge()), reason);
     }
 }
 

@@ -17,7 +17,11 @@ StoredEnergy stored_energy(const Interaction& contact) {
         return energy;
     const auto* phys = dynamic_cast<const GrainPhys*>(contact.phys.get());
     const auto* geom = dynamic_cast<const ScGeom*>(contact.geom.get());
-    if (!phys || !geom || geom->penetrationDepth <= 0)
+    if (!phys || !geom)
+        return energy;
+    if (phys->bridge)
+        energy.bridge = phys->bridge->work;
+    if (geom->penetrationDepth <= 0)
         return energy;
     // F = 2/3 kn d and E = 2/5 F d for a force that goes with d^1.5, whatever its coefficient.
     const Real overlap = geom->penetrationDepth;
@@ -37,6 +41,7 @@ StoredEnergy stored_energy(const Scene& scene) {
         const StoredEnergy one = stored_energy(*contact);
         sum.normal += one.normal;
         sum.shear += one.shear;
+        sum.bridge += one.bridge;
     }
     return sum;
 }

@@ -13,8 +13,9 @@ class Interaction;
 struct StoredEnergy {
     Real normal = 0;
     Real shear = 0;
+    Real bridge = 0; // work done against liquid bridges since they formed; negative on overlap
 
-    Real total() const { return normal + shear; }
+    Real total() const { return normal + shear + bridge; }
 };
 
 /// Of one contact, for the overlap at which its forces acted last; zero for one that is not of GrainPhys.

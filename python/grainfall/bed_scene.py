@@ -43,7 +43,7 @@ def box_walls(spec: BedSpec, material: Any) -> list[Any]:
 
 
 def restore_contacts(bed: Bed) -> None:
-    """Make the contacts that the bed was saved with and give them their shear forces.
+    """Make the contacts that the bed was saved with and give them their shear forces and bridges.
 
     To be called once the engines are set; without it a loaded bed would have to find its friction anew
     and would sag.
@@ -51,6 +51,8 @@ def restore_contacts(bed: Bed) -> None:
     for (first, second), shear in zip(bed.contacts.tolist(), bed.shear.tolist()):
         contact = utils.createInteraction(first, second)
         contact.phys.shearElastic = Vector3(shear)
+        if contact.phys.bridge is not None:  # kept by its bridge, if not by touch
+            contact.phys.bridge.formed = True
         # Without the stiffness that belongs to it, the law would take the spring's energy for new.
         overlap = max(contact.geom.penetrationDepth, 0.0)
         contact.phys.ks = contact.phys.shearCoefficient * math.sqrt(overlap)

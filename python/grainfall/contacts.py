@@ -39,6 +39,12 @@ class Sand:
         Diameter of the real grain [m]; 0 where a grain stands for itself.
     normal_law, tangential_law : str
         Attributes of the contact law.
+    bridges : str
+        Force of liquid bridges where there is moisture: 'willett', 'willett-closed' or 'none'.
+    bridges_per_grain : float
+        Number of bridges among which a grain shares its water [-].
+    surface_tension, contact_angle, liquid_viscosity : float
+        Of the liquid [N/m], [rad], [Pa s].
     """
 
     density: float
@@ -51,6 +57,11 @@ class Sand:
     reference_diameter: float
     normal_law: str
     tangential_law: str
+    bridges: str = "willett"
+    bridges_per_grain: float = 6.0
+    surface_tension: float = 0.0728
+    contact_angle: float = 0.0
+    liquid_viscosity: float = 0.0
 
     def material(self, label: str, **changes: Any) -> Any:
         """GrainMat of these parameters; `changes` are attributes of GrainMat that differ."""
@@ -62,6 +73,11 @@ class Sand:
             "gravimetricMoisture": self.moisture,
             "referenceRadius": self.reference_diameter / 2,
             "friction": friction_curve(self.friction, self.moisture_factor),
+            "bridgeModel": self.bridges,
+            "bridgesPerGrain": self.bridges_per_grain,
+            "surfaceTension": self.surface_tension,
+            "contactAngle": self.contact_angle,
+            "liquidViscosity": self.liquid_viscosity,
             "label": label,
         }
         attributes.update(changes)

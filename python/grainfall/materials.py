@@ -12,6 +12,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
+#: Volume of a bridge over the cube of the grain's radius above which bridges of three touching grains meet:
+#: half filling angle of 30 degrees, by the Young-Laplace equation at perfect wetting.
+PENDULAR_LIMIT = 0.0577
+
 #: The two points that MR-2629 (section 2.2.2) quotes from Cole (2015): load [N], coefficient [-].
 COLE_POINTS: tuple[tuple[float, float], tuple[float, float]] = ((1.0, 0.8), (20.0, 0.2))
 
@@ -121,8 +125,13 @@ def check_scene() -> list[str]:
         if curve is not None and curve.dependsOnMoisture and not wet:
             warnings.append(f"{name}: its friction depends on moisture, but the scene has no water")
         load_dependent = curve is not None and curve.dependsOnLoad
-        if m.referenceRadius > 0 and not load_dependent:
+        if m.referenceRadius > 0 and not load_dependent and not m.hasBridges:
             warnings.append(f"{name}: referenceRadius has no effect on constant friction")
+        if m.relativeBridgeVolume > PENDULAR_LIMIT:
+            warnings.append(
+                f"{name}: bridges hold {m.relativeBridgeVolume:.3g} R^3; above {PENDULAR_LIMIT} R^3 those of "
+                "neighbouring contacts merge, so that separate (pendular) bridges are an approximation"
+            )
     return warnings
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """YADE script: a damped, frictional pack settles; writes its positions and velocities as JSON.
 
-usage: yade -n -x [-j2] friction_pack.py <output.json> <tangential law>
+usage: yade -n -x [-j2] friction_pack.py <output.json> <tangential law> <gravimetric moisture>
 """
 import json
 import math
@@ -33,7 +33,14 @@ def build() -> None:
     """343 grains, a little out of order, over the floor of a box."""
     friction = ExponentialFriction(0.8, 0.2, 0.05)
     O.materials.append(
-        GrainMat(young=1e8, poisson=0.25, density=2500, restitution=0.6, friction=friction)
+        GrainMat(
+            young=1e8,
+            poisson=0.25,
+            density=2500,
+            restitution=0.6,
+            friction=friction,
+            gravimetricMoisture=float(sys.argv[3]),
+        )
     )
     count, pitch = 7, 2.02 * RADIUS
     for i in range(count**3):

@@ -52,6 +52,15 @@ NUMBERS = [
     (GrainMat, "gravimetricMoisture", -0.01, "-0.01", "[0, 1]"),
     (GrainMat, "gravimetricMoisture", 2.3, "2.3", "[0, 1]"),
     (GrainMat, "gravimetricMoisture", NAN, "nan", "[0, 1]"),
+    (GrainMat, "bridgeModel", "wet", "wet", "'willett-closed'"),
+    (GrainMat, "bridgesPerGrain", 0.0, "0", ">= 1"),
+    (GrainMat, "bridgesPerGrain", NAN, "nan", ">= 1"),
+    (GrainMat, "surfaceTension", 0.0, "0", "> 0"),
+    (GrainMat, "surfaceTension", NAN, "nan", "> 0"),
+    (GrainMat, "contactAngle", -0.1, "-0.1", "0.8727"),
+    (GrainMat, "contactAngle", 20.0, "20", "0.8727"),
+    (GrainMat, "liquidViscosity", -1e-3, "-0.001", ">= 0"),
+    (GrainMat, "lubricationCutoff", 0.0, "0", "> 0"),
     (GrainMat, "referenceRadius", -0.001, "-0.001", ">= 0"),
     (GrainMat, "referenceRadius", NAN, "nan", ">= 0"),
     (GrainMat, "friction", -0.3, "-0.3", ">= 0"),
@@ -163,6 +172,10 @@ LISTS = {
         lambda: CombinedFriction("rough", 0.3),
         ("CombinedFriction.first", "rough", "friction curve"),
     ),
+    "a bridge of less than nothing": (
+        lambda: GrainMat(bridgeVolume=-1e-12),
+        ("GrainMat.bridgeVolume", "-1e-12", ">= 0"),
+    ),
     "a pair of one": (lambda: GrainPair(first="sand"), ("GrainPair.second", "''", "label")),
     "a pair that gains energy": (
         lambda: GrainPair("sand", "steel", restitution=1.5),
@@ -205,8 +218,13 @@ def test_pair_of_an_unknown_label_is_found_by_the_check_of_the_scene():
     [
         (lambda: dict(friction=TableFriction([1], [0, 0.1], [[0.5, 0.4]])), "moisture"),
         (lambda: dict(friction=0.4, referenceRadius=1e-4), "referenceRadius"),
+        (lambda: dict(gravimetricMoisture=0.023, density=2650), "pendular"),
     ],
-    ids=["moisture curve in a dry scene", "coarse grain with constant friction"],
+    ids=[
+        "moisture curve in a dry scene",
+        "coarse grain with constant friction",
+        "more water than separate bridges hold",
+    ],
 )
 def test_effect_that_cannot_act_is_warned_of_by_the_check_of_the_scene(attributes, word):
     O.materials.append(GrainMat(label="sand", **attributes()))

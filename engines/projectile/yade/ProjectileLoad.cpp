@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <engines/projectile/yade/ProjectileLoad.hpp>
 
+#include <laws/yade/GrainPhys.hpp>
+
 #include <core/Interaction.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/NormShearPhys.hpp>
@@ -63,7 +65,10 @@ void ProjectileLoad::action() {
         const auto place =
             grainfall::geometry::closest_point(solid.body(), state.ori.conjugate() * (probe - centroid));
 
-        const Vector3r onSecond = phys->normalForce + phys->shearForce;
+        Vector3r onSecond = phys->normalForce + phys->shearForce;
+        const GrainPhys* grain = dynamic_cast<const GrainPhys*>(phys);
+        if (grain && grain->bridge)
+            onSecond += grain->bridge->normal_force() * geom->normal;
         const Vector3r force = isFirst ? Vector3r(-onSecond) : onSecond;
         ZoneLoad& load = loads[static_cast<std::size_t>(place.zone)];
         load.force += force;

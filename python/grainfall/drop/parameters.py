@@ -165,6 +165,26 @@ SAND = (
         kind=str,
     ),
     Option(
+        "bridges",
+        "willett",
+        "force of the liquid bridges between moist grains",
+        kind=str,
+        choices=("willett", "willett-closed", "none"),
+    ),
+    Option("bridges_per_grain", 6.0, "bridges that share a grain's water", "-", low=1, high=14),
+    Option("surface_tension", 0.0728, "of the water", "N/m", low=0, high=1, open_low=True),
+    Option(
+        "contact_angle", 0.0, "of the water on grains and projectile", "rad", low=0, high=0.8727
+    ),
+    Option(
+        "liquid_viscosity",
+        0.0,
+        "of the water in bridges (1e-3 at 20 C); 0 leaves the squeeze film out",
+        "Pa s",
+        low=0,
+        high=10,
+    ),
+    Option(
         "reference_diameter",
         0.72e-3,
         "diameter of the real grain that a simulated one stands for: friction is read at the load it would "

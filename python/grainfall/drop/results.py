@@ -120,4 +120,5 @@ def energy_results(energy: Mapping[str, np.ndarray], mass: float, speed: float) 
         "dissipated_by_friction_J": float(energy["friction_J"][-1] - energy["friction_J"][0]),
         "dissipated_by_dashpots_J": float(energy["viscous_J"][-1] - energy["viscous_J"][0]),
         "dissipated_by_rescaling_J": float(energy["rescaling_J"][-1] - energy["rescaling_J"][0]),
+        "lost_in_ruptured_bridges_J": float(energy["ruptured_J"][-1] - energy["ruptured_J"][0]),
     }

@@ -35,6 +35,11 @@ def sand_of(parameters: Mapping[str, Any]) -> Sand:
         reference_diameter=p["reference_diameter"],
         normal_law=p["normal_law"],
         tangential_law=p["tangential_law"],
+        bridges=p["bridges"],
+        bridges_per_grain=p["bridges_per_grain"],
+        surface_tension=p["surface_tension"],
+        contact_angle=p["contact_angle"],
+        liquid_viscosity=p["liquid_viscosity"],
     )
 
 
@@ -97,6 +102,7 @@ def _projectile(p: Mapping[str, Any], bed: Bed) -> Any:
         poisson=p["projectile_poisson"],
         restitution=p["projectile_restitution"],
         friction=p["projectile_friction"],
+        contactAngle=p["contact_angle"],
         label="projectile",
     )
     O.materials.append(material)

@@ -78,6 +78,8 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
     summary.update(coarsening(p, bed))
     summary["largest_overlap_over_radius"] = run.snapshots.largest_relative_overlap
     summary["effects"] = dict(builtins.contact_law.effects)
+    if p["moisture"] > 0 and p["bridges"] != "none":
+        summary["water"] = water(builtins.contact_law.water())
     summary["price"] = engine_seconds(run)
     summary["bed"] = {**bed.report, "from_cache": run.bed_was_cached}
     summary["parameters"] = dict(p)
@@ -114,6 +116,20 @@ def engine_seconds(run: DropRun) -> dict[str, float]:
     return price
 
 
+def water(budget: dict[str, Any]) -> dict[str, float]:
+    """Where the water is at the end, volumes at the size of the simulated grains."""
+    return {
+        "total_m3": budget["total"],
+        "in_bridges_m3": budget["inBridges"],
+        "on_grains_m3": budget["onGrains"],
+        "bridges": budget["bridges"],
+        "mean_bridge_volume_over_radius_cubed": budget["meanRelativeVolume"],
+        "share_beyond_pendular": budget["beyondPendular"],
+        "share_beyond_range_of_force": budget["beyondFit"],
+        "overdrawn_grains": budget["overdrawnGrains"],
+    }
+
+
 def coarsening(p: dict[str, Any], bed: Bed) -> dict[str, Any]:
     """By how much the grains were enlarged, and how many the real ones would be."""
     real = p["reference_diameter"]
@@ -141,10 +157,16 @@ def notes(summary: dict[str, Any], p: dict[str, Any]) -> list[str]:
             f"The largest overlap seen is {100 * overlap:.1f} % of a grain's radius: the grains are soft "
             "(--young); below 1 % stiffness hardly matters."
         )
-    if p["moisture"] > 0 and not p["moisture_factor"]:
+    if p["moisture"] > 0 and not p["moisture_factor"] and p["bridges"] == "none":
         lines.append(
-            "Water is present but nothing in this run depends on it: give --moisture-factor "
-            "(liquid bridges are not part of this version)."
+            "Water is present but nothing in this run depends on it: give --moisture-factor or leave "
+            "--bridges on."
+        )
+    share = summary.get("water", {}).get("share_beyond_pendular", 0.0)
+    if share > 0:
+        lines.append(
+            f"{100 * share:.0f} % of the liquid bridges are so large that neighbours would merge (beyond the "
+            "pendular regime): the forces are those of separate bridges of the same volume."
         )
     if summary["interrupted"]:
         lines.append("The run was interrupted: continue with --resume FOLDER.")

@@ -35,9 +35,11 @@ ENERGY_COLUMNS = (
     "potential_J",
     "elastic_normal_J",
     "elastic_shear_J",
+    "bridges_J",
     "friction_J",
     "viscous_J",
     "rescaling_J",
+    "ruptured_J",
     "total_J",
 )
 #: Rows of the trace between two rows of energies, which cost a walk over all bodies and contacts.
@@ -156,9 +158,11 @@ def energy_row() -> tuple[float, ...]:
         GRAVITY * sum(b.state.mass * b.state.pos[2] for b in O.bodies),
         elastic["normal"],
         elastic["shear"],
+        elastic["bridge"],
         booked.get("grainFriction", 0.0),
         booked.get("grainViscous", 0.0),
         booked.get("grainRescaling", 0.0),
+        booked.get("grainBridge", 0.0),
     )
     return (O.time, *parts, sum(parts))
 
