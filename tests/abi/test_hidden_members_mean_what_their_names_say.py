@@ -166,6 +166,38 @@ def test_an_engine_s_scene_and_timing(parts):
     assert (timing.value("nExec"), timing.value("nsec")) == (17, 1 << 33)
 
 
+def test_an_integrator_s_places_in_the_energies_and_its_caches(parts):
+    integrator = at(O.engines[3], "NewtonIntegrator")
+    sums = At("OpenMPArrayAccumulator<double>", parts["EnergyTracker"].place("energies"))
+
+    def energy(member: str, class_name: str = "NewtonIntegrator") -> float:
+        index = At(class_name, integrator.address).value(member)
+        chunks, threads = sums.pointer("chunks"), sums.value("threads")
+        rows = (abi_probe.pointer(chunks + POINTER * thread) for thread in range(threads))
+        return sum(abi_probe.read(row + 8 * index, "Real") for row in rows)
+
+    assert energy("nonviscDampIx") == O.energy["nonviscDamp"] > 0
+    assert energy("kinEnergyIx") == O.energy["kinetic"] > 0
+    assert energy("fieldWorkIx", "FieldApplier") == O.energy["gravWork"] != 0
+    assert integrator.value("kinEnergyTransIx") == integrator.value("kinEnergyRotIx") == -1
+    assert integrator.length("threadMaxVelocitySq", 8) == O.numThreads
+    assert integrator.value("densityScaling") is False
+
+
+def test_an_integrator_s_view_of_a_deforming_cell():
+    O.periodic = True
+    O.cell.setBox(4, 5, 6)
+    O.engines = [yade.ForceResetter(), yade.NewtonIntegrator()]
+    O.dt = 1e-3
+    O.cell.velGrad = O.cell.hSize / 100
+    O.run(3, True)
+    integrator = at(O.engines[1], "NewtonIntegrator")
+    assert integrator.value("cellChanged") is True
+    assert integrator.value("homoDeform") == O.cell.homoDeform == 2
+    assert integrator.value("prevCellSize") == O.cell.size
+    assert integrator.value("dVelGrad").norm() == 0  # the gradient did not change in the last step
+
+
 def test_references_point_into_their_own_object(parts):
     state, geometry = at(O.bodies[1].state), at(O.interactions[0, 1].geom)
     pose = At("Se3<double>", state.place("se3"))
