@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <engines/energy/yade/EnergyLedger.hpp>
+
+#include <engines/energy/yade/newton_motion.hpp>
+#include <laws/validation.hpp>
+#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/stored_energy.hpp>
+
+#include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Omega.hpp>
+#include <core/TimeStepper.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <stdexcept>
+
+namespace yade {
+
+YADE_PLUGIN((EnergyLedger));
+CREATE_LOGGER(EnergyLedger);
+
+namespace ge = grainfall::energy;
+using ge::Term;
+
+namespace {
+
+#pragma omp declare reduction(+ : ge::StepSums : omp_out += omp_in)
+
+ge::Amounts amounts(const vector<Real>& values) {
+    ge::Amounts result;
+    std::copy(values.begin(), values.end(), result.value.begin());
+    return result;
+}
+
+/// Sum in O.energy under a name; 0 where there is none.
+Real booked(const EnergyTracker& energy, const char* name) {
+    const auto place = energy.names.find(name);
+    return place == energy.names.end() ? 0 : energy.energies.get(place->second);
+}
+
+/// "potential" -> "ledgerPotential"
+string name_in_tracker(const string& term) {
+    string name = "ledger" + term;
+    name[6] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[6])));
+    return name;
+}
+
+/// Steps past a work kept as two numbers, done and pending.
+void step_work(vector<Real>& works, size_t place, const ge::HalfWorks& halves) {
+    ge::TrapezoidWork work{works[place], works[place + 1]};
+    work.step(halves.before, halves.after);
+    works[place] = work.done;
+    works[place + 1] = work.pending;
+}
+
+} // namespace
+
+void EnergyLedger::validate() const {
+    if (iterPeriod < 1)
+        grainfall::laws::reject("EnergyLedger.iterPeriod", iterPeriod, ">= 1");
+}
+
+void EnergyLedger::forget() {
+    now.assign(ge::term_count, 0);
+    start.assign(ge::term_count, 0);
+    works.assign(6, 0);
+    motion.assign(3, 0);
+    broughtKinetic = energyInPlay = largestResidual = stepChangeEnergy = lastTimeStep = 0;
+    firstStep = lastStep = balancedStep = -1;
+    velocities.clear();
+    spins.clear();
+    blocked.clear();
+}
+
+void EnergyLedger::restart() {
+    forget();
+}
+
+void EnergyLedger::action() {
+    find_integrator();
+    check_scene();
+    scene->trackEnergy = true;
+    if (lastStep >= 0 && scene->iter != lastStep + 1) {
+        LOG_WARN("steps " << lastStep + 1 << " to " << scene->iter - 1
+                          << " were made without the ledger: the balance starts anew.");
+        forget();
+    }
+    const bool first = firstStep < 0;
+    if (first) {
+        firstStep = scene->iter;
+        lastTimeStep = scene->dt;
+    }
+    book_works(sum_over_bodies());
+    lastStep = scene->iter;
+    lastTimeStep = scene->dt;
+    if (first || (lastStep - firstStep) % iterPeriod == 0)
+        balance();
+}
+
+/// The engines are looked at again only when they have changed.
+void EnergyLedger::find_integrator() {
+    const auto same = [](const shared_ptr<Engine>& engine, const Engine* checked) {
+        return engine.get() == checked;
+    };
+    const auto& engines = scene->engines;
+    const bool unchanged = integrator_ && engines.size() == checked_order_.size() &&
+                           std::equal(engines.begin(), engines.end(), checked_order_.begin(), same);
+    if (!unchanged) {
+        integrator_ = nullptr;
+        const Engine* between = nullptr;
+        bool behind_this = false;
+        for (const auto& engine : engines) {
+            if (engine.get() == this) {
+                behind_this = true;
+            } else if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) {
+                if (behind_this)
+                    throw std::runtime_error("EnergyLedger stands before NewtonIntegrator in O.engines: must "
+                                             "stand after it, as the last engine");
+                if (integrator_)
+                    throw std::runtime_error("EnergyLedger: two NewtonIntegrators in O.engines; must be one");
+                integrator_ = newton;
+                between = nullptr;
+            } else if (!behind_this && (dynamic_cast<const TimeStepper*>(engine.get()) ||
+                                        engine->getClassName() == "ForceResetter")) {
+                between = engine.get();
+            }
+        }
+        if (!integrator_)
+            throw std::runtime_error("EnergyLedger: no NewtonIntegrator in O.engines; must stand after one");
+        if (between) {
+            integrator_ = nullptr;
+            throw std::runtime_error("EnergyLedger: " + between->getClassName() +
+                                     " stands between NewtonIntegrator and the ledger; must stand before "
+                                     "NewtonIntegrator");
+        }
+        checked_order_.clear();
+        for (const auto& engine : engines)
+            checked_order_.push_back(engine.get());
+    }
+    if (integrator_->dead)
+        throw std::runtime_error("EnergyLedger: NewtonIntegrator.dead = True: must be False (or set "
+                                 "EnergyLedger.dead too)");
+}
+
+void EnergyLedger::check_scene() const {
+    if (integrator_->densityScaling)
+        throw std::runtime_error("NewtonIntegrator.densityScaling = True: must be False with EnergyLedger; "
+                                 "scaled masses have no energy balance");
+    const Cell& cell = *scene->cell;
+    if (scene->isPeriodic && !(cell.velGrad.isZero(0) && cell.prevVelGrad.isZero(0)))
+        throw std::runtime_error("O.cell.velGrad is not zero: must be zero with EnergyLedger, which does not "
+                                 "know the work of a deforming cell");
+    if (!scene->forces.synced)
+        throw std::runtime_error("EnergyLedger: an engine adds forces after NewtonIntegrator; EnergyLedger "
+                                 "must stand before it");
+}
+
+ge::StepSums EnergyLedger::sum_over_bodies() {
+    const NewtonStep step(*integrator_, scene->forces, {scene->dt, lastTimeStep});
+    const auto& bodies = scene->bodies->body;
+    const int count = static_cast<int>(bodies.size());
+    const size_t known = velocities.size();
+    velocities.resize(count);
+    spins.resize(count);
+    blocked.resize(count, -1);
+    ge::StepSums sums;
+#pragma omp parallel for schedule(static) reduction(+ : sums) if (count > 1000)
+    for (int id = 0; id < count; ++id) {
+        const Body* body = bodies[id].get();
+        if (!body || body->isClumpMember() ||
+            (integrator_->mask > 0 && !(body->groupMask & integrator_->mask))) {
+            blocked[id] = -1;
+            continue;
+        }
+        const State& state = *body->state;
+        const bool is_known = static_cast<size_t>(id) < known && blocked[id] >= 0;
+        const EarlierMotion earlier = is_known ? EarlierMotion{velocities[id], spins[id], blocked[id]}
+                                               : EarlierMotion{state.vel, state.angVel, -1};
+        add_body(*body, earlier, scene->forces, step, sums);
+        velocities[id] = state.vel;
+        spins[id] = state.angVel;
+        blocked[id] = static_cast<int>(state.blockedDOFs);
+    }
+    return sums;
+}
+
+void EnergyLedger::book_works(const ge::StepSums& sums) {
+    step_work(works, 0, sums.imposed);
+    step_work(works, 2, sums.load);
+    step_work(works, 4, sums.damping);
+    broughtKinetic += sums.brought_kinetic;
+    stepChangeEnergy += sums.step_change;
+    start[static_cast<size_t>(Term::potential)] += sums.brought_potential;
+    motion = {sums.kinetic_translation, sums.kinetic_rotation, sums.potential};
+    energyInPlay = std::max(energyInPlay, sums.kinetic_translation + sums.kinetic_rotation);
+}
+
+/// Counts what the contacts hold and have lost. Valid until the next step turns to the contacts.
+void EnergyLedger::balance() {
+    Real normal = 0, shear = 0;
+    int unknown = -1;
+    const InteractionContainer& contacts = *scene->interactions;
+    const int count = static_cast<int>(scene->interactions->size());
+#pragma omp parallel for schedule(static) reduction(+ : normal, shear) reduction(max : unknown) if (count > 1000)
+    for (int i = 0; i < count; ++i) {
+        const Interaction& contact = *contacts[i];
+        if (!contact.isReal())
+            continue;
+        if (!dynamic_cast<const GrainPhys*>(contact.phys.get()))
+            unknown = std::max(unknown, i);
+        const StoredEnergy stored = stored_energy(contact);
+        normal += stored.normal;
+        shear += stored.shear;
+    }
+    if (unknown >= 0) {
+        const Interaction& contact = *contacts[unknown];
+        throw std::runtime_error("EnergyLedger: contact " + std::to_string(contact.getId1()) + "-" +
+                                 std::to_string(contact.getId2()) + " is a " + contact.phys->getClassName() +
+                                 ": must be a GrainPhys, whose stored energy is known");
+    }
+    ge::Amounts values;
+    values[Term::kinetic_translation] = motion[0];
+    values[Term::kinetic_rotation] = motion[1];
+    values[Term::potential] = motion[2];
+    values[Term::imposed_motion] = works[0] + broughtKinetic;
+    values[Term::permanent_load] = works[2];
+    values[Term::numerical_damping] = 0 - works[4];
+    values[Term::elastic_normal] = normal;
+    values[Term::elastic_shear] = shear;
+    for (const ge::TermName& term : ge::term_names)
+        if (term.booked_by_law)
+            values[term.term] = booked(*scene->energy, term.booked_by_law);
+    now.assign(values.value.begin(), values.value.end());
+    if (balancedStep < 0)
+        start = now;
+    balancedStep = lastStep;
+    energyInPlay = std::max(energyInPlay, ge::energy_in_play(values, amounts(start)));
+    largestResidual = std::max(largestResidual, std::abs(ge::residual(values, amounts(start))));
+    write_energies();
+}
+
+void EnergyLedger::write_energies() {
+    const auto write = [this](const string& name, Real value) {
+        int place = -1;
+        scene->energy->set(value, name_in_tracker(name), place);
+    };
+    for (const ge::TermName& term : ge::term_names)
+        if (!term.booked_by_law)
+            write(term.name, amounts(now)[term.term]);
+    write("residual", ge::residual(amounts(now), amounts(start)));
+}
+
+/// Do the contacts still stand as the last step left them?
+bool EnergyLedger::can_balance() const {
+    return lastStep >= 0 && scene->iter <= lastStep + 1 && scene->forces.lastReset <= lastStep;
+}
+
+void EnergyLedger::update() {
+    scene = Omega::instance().getScene().get();
+    if (balancedStep != lastStep && can_balance())
+        balance();
+}
+
+Real EnergyLedger::residual() {
+    if (!Omega::instance().isRunning()) // else the contacts may be changing in another thread
+        update();
+    return ge::residual(amounts(now), amounts(start));
+}
+
+Real EnergyLedger::relativeResidual() {
+    const Real size = std::abs(residual());
+    return energyInPlay > 0 ? size / energyInPlay : 0;
+}
+
+boost::python::dict EnergyLedger::table() {
+    const Real left_over = residual();
+    boost::python::dict terms;
+    for (const ge::TermName& term : ge::term_names)
+        terms[term.name] = amounts(now)[term.term];
+    terms["residual"] = left_over;
+    terms["relativeResidual"] = relativeResidual();
+    terms["energyInPlay"] = energyInPlay;
+    terms["largestResidual"] = largestResidual;
+    terms["stepChangeEnergy"] = stepChangeEnergy;
+    return terms;
+}
+
+} // namespace yade
