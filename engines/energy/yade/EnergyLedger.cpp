@@ -68,10 +68,15 @@ void EnergyLedger::forget() {
     works.assign(6, 0);
     motion.assign(3, 0);
     broughtKinetic = energyInPlay = largestResidual = stepChangeEnergy = lastTimeStep = 0;
-    firstStep = lastStep = balancedStep = -1;
+    firstStep = lastStep = countedStep = balancedStep = -1;
     velocities.clear();
     spins.clear();
     blocked.clear();
+}
+
+void EnergyLedger::preSave(EnergyLedger&) {
+    if (!Omega::instance().isRunning())
+        update();
 }
 
 void EnergyLedger::restart() {
@@ -92,10 +97,12 @@ void EnergyLedger::action() {
         firstStep = scene->iter;
         lastTimeStep = scene->dt;
     }
-    book_works(sum_over_bodies());
+    const bool due = first || (scene->iter - firstStep) % iterPeriod == 0;
+    book_works(due);
     lastStep = scene->iter;
     lastTimeStep = scene->dt;
-    if (first || (lastStep - firstStep) % iterPeriod == 0)
+    forces_are_those_of_last_step_ = true;
+    if (due)
         balance();
 }
 
@@ -108,13 +115,13 @@ void EnergyLedger::find_integrator() {
     const bool unchanged = integrator_ && engines.size() == checked_order_.size() &&
                            std::equal(engines.begin(), engines.end(), checked_order_.begin(), same);
     if (!unchanged) {
-        integrator_ = nullptr;
+        integrator_.reset();
         const Engine* between = nullptr;
         bool behind_this = false;
         for (const auto& engine : engines) {
             if (engine.get() == this) {
                 behind_this = true;
-            } else if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) {
+            } else if (const auto newton = boost::dynamic_pointer_cast<const NewtonIntegrator>(engine)) {
                 if (behind_this)
                     throw std::runtime_error("EnergyLedger stands before NewtonIntegrator in O.engines: must "
                                              "stand after it, as the last engine");
@@ -130,7 +137,7 @@ void EnergyLedger::find_integrator() {
         if (!integrator_)
             throw std::runtime_error("EnergyLedger: no NewtonIntegrator in O.engines; must stand after one");
         if (between) {
-            integrator_ = nullptr;
+            integrator_.reset();
             throw std::runtime_error("EnergyLedger: " + between->getClassName() +
                                      " stands between NewtonIntegrator and the ledger; must stand before "
                                      "NewtonIntegrator");
@@ -157,48 +164,76 @@ void EnergyLedger::check_scene() const {
                                  "must stand before it");
 }
 
-ge::StepSums EnergyLedger::sum_over_bodies() {
-    const NewtonStep step(*integrator_, scene->forces, {scene->dt, lastTimeStep});
+/// Sum over the bodies that the integrator moves; `add(id, body, sums)` runs in several threads.
+template <class Add>
+ge::StepSums EnergyLedger::sum_over_bodies(const Add& add) {
     const auto& bodies = scene->bodies->body;
     const int count = static_cast<int>(bodies.size());
-    const size_t known = velocities.size();
-    velocities.resize(count);
-    spins.resize(count);
-    blocked.resize(count, -1);
     ge::StepSums sums;
 #pragma omp parallel for schedule(static) reduction(+ : sums) if (count > 1000)
     for (int id = 0; id < count; ++id) {
         const Body* body = bodies[id].get();
-        if (!body || body->isClumpMember() ||
-            (integrator_->mask > 0 && !(body->groupMask & integrator_->mask))) {
+        const bool moved = body && !body->isClumpMember() &&
+                           (integrator_->mask <= 0 || (body->groupMask & integrator_->mask));
+        if (moved)
+            add(id, *body, sums);
+        else
             blocked[id] = -1;
-            continue;
-        }
-        const State& state = *body->state;
-        const bool is_known = static_cast<size_t>(id) < known && blocked[id] >= 0;
-        const EarlierMotion earlier = is_known ? EarlierMotion{velocities[id], spins[id], blocked[id]}
-                                               : EarlierMotion{state.vel, state.angVel, -1};
-        add_body(*body, earlier, scene->forces, step, sums);
-        velocities[id] = state.vel;
-        spins[id] = state.angVel;
-        blocked[id] = static_cast<int>(state.blockedDOFs);
     }
     return sums;
 }
 
-void EnergyLedger::book_works(const ge::StepSums& sums) {
+/// Works of this step. A free body with neither damping nor load exchanges energy with contacts and gravity
+/// only: it is passed over unless its energy is asked for.
+void EnergyLedger::book_works(bool count_all) {
+    const NewtonStep step(*integrator_, scene->forces, {scene->dt, lastTimeStep});
+    const bool every_body = count_all || step.damping != 0 || step.has_loads || scene->dt != lastTimeStep;
+    const size_t count = scene->bodies->body.size();
+    velocities.resize(count);
+    spins.resize(count);
+    blocked.resize(count, -1);
+    const auto add = [&](int id, const Body& body, ge::StepSums& sums) {
+        const State& state = *body.state;
+        const int is_blocked = static_cast<int>(state.blockedDOFs);
+        const bool known = blocked[id] >= 0;
+        if (every_body || is_blocked || blocked[id] > 0)
+            add_body(body,
+                     {known ? velocities[id] : state.vel, known ? spins[id] : state.angVel,
+                      known ? blocked[id] : is_blocked},
+                     scene->forces, step, sums);
+        velocities[id] = state.vel;
+        spins[id] = state.angVel;
+        blocked[id] = is_blocked;
+    };
+    const ge::StepSums sums = sum_over_bodies(add);
     step_work(works, 0, sums.imposed);
     step_work(works, 2, sums.load);
     step_work(works, 4, sums.damping);
     broughtKinetic += sums.brought_kinetic;
     stepChangeEnergy += sums.step_change;
     start[static_cast<size_t>(Term::potential)] += sums.brought_potential;
+    if (every_body) {
+        motion = {sums.kinetic_translation, sums.kinetic_rotation, sums.potential};
+        countedStep = scene->iter;
+    }
+}
+
+/// Kinetic and potential energy of the last step, in which there was no damping.
+void EnergyLedger::count_motion() {
+    NewtonStep step(*integrator_, scene->forces, {lastTimeStep, lastTimeStep});
+    step.damping = 0;
+    const auto add = [&](int id, const Body& body, ge::StepSums& sums) {
+        add_body(body, {velocities[id], spins[id], blocked[id]}, scene->forces, step, sums);
+    };
+    const ge::StepSums sums = sum_over_bodies(add);
     motion = {sums.kinetic_translation, sums.kinetic_rotation, sums.potential};
-    energyInPlay = std::max(energyInPlay, sums.kinetic_translation + sums.kinetic_rotation);
+    countedStep = lastStep;
 }
 
 /// Counts what the contacts hold and have lost. Valid until the next step turns to the contacts.
 void EnergyLedger::balance() {
+    if (countedStep != lastStep)
+        count_motion();
     Real normal = 0, shear = 0;
     int unknown = -1;
     const InteractionContainer& contacts = *scene->interactions;
@@ -252,9 +287,13 @@ void EnergyLedger::write_energies() {
     write("residual", ge::residual(amounts(now), amounts(start)));
 }
 
-/// Do the contacts still stand as the last step left them?
+/// Do forces and contacts still stand as the last step left them? Forces are not saved with a scene.
 bool EnergyLedger::can_balance() const {
-    return lastStep >= 0 && scene->iter <= lastStep + 1 && scene->forces.lastReset <= lastStep;
+    const auto is_this = [this](const shared_ptr<Engine>& engine) { return engine.get() == this; };
+    return forces_are_those_of_last_step_ &&
+           std::any_of(scene->engines.begin(), scene->engines.end(), is_this) &&
+           scene->iter <= lastStep + 1 && scene->forces.synced && scene->forces.lastReset <= lastStep &&
+           velocities.size() == scene->bodies->body.size();
 }
 
 void EnergyLedger::update() {

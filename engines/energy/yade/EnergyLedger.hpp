@@ -19,6 +19,7 @@ public:
     void action() override;
     void validate() const;
     void postLoad(EnergyLedger&) { validate(); }
+    void preSave(EnergyLedger&);
 
     /// Brings the balance up to the last step that was made; see the Python description.
     void update();
@@ -49,7 +50,8 @@ public:
         ((Real, lastTimeStep, 0, Attr::hidden, "dt of the last step."))
         ((vector<Real>, now, , Attr::hidden, "Terms at the last balance, in the order of grainfall::energy::Term."))
         ((vector<Real>, start, , Attr::hidden, "The same when the balance started."))
-        ((vector<Real>, motion, , Attr::hidden, "Kinetic energy of translation and rotation, potential energy after the last step."))
+        ((vector<Real>, motion, , Attr::hidden, "Kinetic energy of translation and rotation, potential energy at `countedStep`."))
+        ((long, countedStep, -1, Attr::hidden, "Step that `motion` belongs to."))
         ((vector<Real>, works, , Attr::hidden, "Done and pending: imposed motion, permanent load, damping."))
         ((Real, broughtKinetic, 0, Attr::hidden, "Kinetic energy of what was let go less that of what was caught."))
         ((vector<Vector3r>, velocities, , Attr::hidden, "By body, after the last step."))
@@ -78,13 +80,16 @@ public:
 
 private:
     vector<const Engine*> checked_order_;
-    const NewtonIntegrator* integrator_ = nullptr;
+    shared_ptr<const NewtonIntegrator> integrator_;
+    bool forces_are_those_of_last_step_ = false;
 
     void forget();
     void find_integrator();
     void check_scene() const;
-    grainfall::energy::StepSums sum_over_bodies();
-    void book_works(const grainfall::energy::StepSums& sums);
+    template <class Add>
+    grainfall::energy::StepSums sum_over_bodies(const Add& add);
+    void book_works(bool count_all);
+    void count_motion();
     void balance();
     void write_energies();
     bool can_balance() const;
