@@ -15,6 +15,7 @@ from grainfall.bed_scene import WALL_COUNT, add_bed, restore_contacts
 from grainfall.beds import Bed, BedSpec
 from grainfall.contacts import Sand, contact_loop, rayleigh_step
 from grainfall.drop.parameters import GRAVITY
+from grainfall.drop.trace import ENERGY_EVERY
 from grainfall.projectiles import make_projectile, projectile
 
 #: The projectile starts this many mean grain diameters above the highest grain.
@@ -86,7 +87,6 @@ def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
     O.bodies.append(_projectile(p, bed))
     O.engines = _engines(p, sand, bed)
     O.dt = time_step(p, bed)
-    O.trackEnergy = not p["no_energy"]
     restore_contacts(bed)
 
 
@@ -133,12 +133,24 @@ def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
         w.GrainPair("sand", "wall", friction=p["wall_friction"]),
     ]
     every = max(1, round(p["record_interval"] / time_step(p, bed)))
-    command = "import grainfall.drop.trace; grainfall.drop.trace.record()"
-    return [
+    command = "import grainfall.drop.trace; grainfall.drop.trace.{}()"
+    engines = [
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
         contact_loop(sand, pairs, contact),
         w.ProjectileLoad(body=projectile_id(bed), label="projectile_load"),
-        w.PyRunner(command=command, iterPeriod=every, label="recorder"),
+        w.PyRunner(command=command.format("record"), iterPeriod=every, label="recorder"),
         w.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=0, label="integrator"),
+    ]
+    if p["no_energy"]:
+        return engines
+    every_energy = every * ENERGY_EVERY
+    return engines + [
+        w.EnergyLedger(iterPeriod=every_energy, label="energy_ledger"),
+        w.PyRunner(
+            command=command.format("record_energies"),
+            iterPeriod=every_energy,
+            initRun=True,
+            label="energy_recorder",
+        ),
     ]
