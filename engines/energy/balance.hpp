@@ -26,6 +26,7 @@ enum class Term {
     numerical_damping,
     imposed_motion,
     permanent_load,
+    shear_kinematics,
 };
 
 enum class Kind { stored, dissipated, supplied };
@@ -38,7 +39,7 @@ struct TermName {
 };
 
 // In the order of Term.
-constexpr std::array<TermName, 11> term_names = {{
+constexpr std::array<TermName, 12> term_names = {{
     {Term::kinetic_translation, "kineticTranslation", Kind::stored, nullptr},
     {Term::kinetic_rotation, "kineticRotation", Kind::stored, nullptr},
     {Term::potential, "potential", Kind::stored, nullptr},
@@ -50,6 +51,7 @@ constexpr std::array<TermName, 11> term_names = {{
     {Term::numerical_damping, "numericalDamping", Kind::dissipated, nullptr},
     {Term::imposed_motion, "imposedMotion", Kind::supplied, nullptr},
     {Term::permanent_load, "permanentLoad", Kind::supplied, nullptr},
+    {Term::shear_kinematics, "shearKinematics", Kind::supplied, "grainShearKinematics"},
 }};
 
 constexpr std::size_t term_count = term_names.size();

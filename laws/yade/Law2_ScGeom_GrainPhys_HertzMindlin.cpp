@@ -47,7 +47,7 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
     kernels_ = {&pair.plain, &pair.booking};
 }
 
-void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real rescaling) {
+void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real rescaling, Real kinematics) {
     EnergyTracker& energy = *scene->energy;
     if (!energy_named_.load(std::memory_order_acquire)) {
         // All names first and by one thread: adding a name may move the accumulators under another thread's
@@ -56,6 +56,7 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real 
         energy.findId("grainFriction", frictionIx, false, true);
         energy.findId("grainViscous", viscousIx, false, true);
         energy.findId("grainRescaling", rescalingIx, false, true);
+        energy.findId("grainShearKinematics", kinematicsIx, false, true);
         energy_named_.store(true, std::memory_order_release);
     }
     if (friction != 0)
@@ -64,6 +65,8 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real 
         energy.add(viscous, "grainViscous", viscousIx, false);
     if (rescaling != 0)
         energy.add(rescaling, "grainRescaling", rescalingIx, false);
+    if (kinematics != 0)
+        energy.add(kinematics, "grainShearKinematics", kinematicsIx, false);
 }
 
 boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy() const {

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 import contact_scenes as cs
+import numpy as np
 from grainfall.contacts import rayleigh_step
 from yade import EnergyLedger, ExponentialFriction, O, utils
 
@@ -23,13 +24,6 @@ def add_ledger(**attributes) -> EnergyLedger:
     ledger = EnergyLedger(**attributes)
     O.engines = O.engines + [ledger]
     return ledger
-
-
-def let_shear_work_exactly() -> None:
-    """Reckon shear displacement where the shear force acts, not on the undeformed surfaces (see energy.md)."""
-    spheres, wall = O.engines[2].geomDispatcher.functors[:2]
-    spheres.avoidGranularRatcheting = False
-    wall.noRatch = False
 
 
 def head_on(steps_per_contact: float, restitution: float = 1.0) -> EnergyLedger:
@@ -51,9 +45,7 @@ def head_on(steps_per_contact: float, restitution: float = 1.0) -> EnergyLedger:
     return ledger
 
 
-def oblique(
-    steps_per_contact: float, restitution: float = 0.5, exact_shear: bool = False
-) -> EnergyLedger:
+def oblique(steps_per_contact: float, restitution: float = 0.5) -> EnergyLedger:
     """Two spinning spheres collide off centre, one with a plane too, with friction and dashpots."""
     values = dict(friction=ExponentialFriction(0.6, 0.2, 20.0), restitution=restitution)
     O.materials.append(
@@ -70,12 +62,34 @@ def oblique(
     O.bodies[lower].state.angVel = (0, 200, 80)
     O.bodies[upper].state.angVel = (-100, 50, 0)
     cs.set_engines(cs.grain_law())
-    if exact_shear:
-        let_shear_work_exactly()
     ledger = add_ledger(iterPeriod=1)
     duration = cs.HertzImpact.of_equal_spheres(HARD, RADIUS, SPEED).duration
     O.dt = duration / steps_per_contact
     cs.run_for(8 * duration)
+    return ledger
+
+
+def sliding_pair(exact_kinematics: bool) -> EnergyLedger:
+    """A sphere is led round a fixed equal one at constant overlap, without turning, sliding all the way.
+
+    `exact_kinematics` switches YADE's remedy against ratcheting off.
+    """
+    O.materials.append(SOFT.material(frictionAngle=math.atan(0.3)))
+    distance, rate = 1.98 * RADIUS, 10.0
+    cs.add_sphere((0, 0, 0), RADIUS, 0, fixed=True)
+    cs.add_sphere((distance, 0, 0), RADIUS, 0, fixed=True)
+    state = O.bodies[1].state
+
+    def lead() -> None:
+        goal = rate * O.dt * (O.iter + 1)
+        place = distance * np.array([math.cos(goal), math.sin(goal), 0])
+        state.vel = tuple((place - np.array(state.pos)) / O.dt)
+
+    cs.set_engines(cs.grain_law(), lead)
+    O.engines[2].geomDispatcher.functors[0].avoidGranularRatcheting = not exact_kinematics
+    ledger = add_ledger()
+    O.dt = 1e-6
+    O.run(2000, True)
     return ledger
 
 

@@ -106,8 +106,8 @@ def test_energies_stand_in_the_scene_s_own_tracker():
     table, tracker = ledger.table(), dict(O.energy.items())
     for name in ("kineticTranslation", "potential", "elasticNormal", "imposedMotion", "residual"):
         assert tracker["ledger" + name[0].upper() + name[1:]] == table[name]
-    for name in ("friction", "viscous", "rescaling"):
-        assert tracker["grain" + name.capitalize()] == table[name]
+    for name in ("friction", "viscous", "rescaling", "shearKinematics"):
+        assert tracker["grain" + name[0].upper() + name[1:]] == table[name]
     assert table["viscous"] > 0
 
 

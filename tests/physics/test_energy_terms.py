@@ -123,7 +123,6 @@ def pressed_sphere(mu: float, overlap: float, speed: float) -> EnergyLedger:
             O.bodies[1].state.vel = (speed, 0, 0)
 
     cs.set_engines(cs.grain_law(), push)
-    O.engines[2].geomDispatcher.functors[1].noRatch = False
     O.dt = 1e-6
     return scenes.add_ledger()
 

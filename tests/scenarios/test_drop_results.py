@@ -100,7 +100,7 @@ def test_nose_shaft_and_base_make_up_the_whole_force(small_drop):
 
 
 def test_energy_is_accounted_for_within_a_thousandth(small_drop):
-    summary, folder = small_drop(duration=0.01, record_interval=5e-5)
+    summary, folder = small_drop(duration=0.01, dt_safety=0.1, record_interval=2e-5)
     assert 0 < summary["energy_residual_relative"] < 1e-3
     assert not any("energy balance" in note for note in summary["notes"])
     with h5py.File(folder / "trace.h5") as file:

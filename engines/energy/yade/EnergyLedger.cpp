@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <engines/energy/yade/EnergyLedger.hpp>
 
+#include <engines/energy/yade/engine_order.hpp>
 #include <engines/energy/yade/newton_motion.hpp>
 #include <laws/validation.hpp>
 #include <laws/yade/GrainPhys.hpp>
@@ -9,7 +10,6 @@
 #include <core/Interaction.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
-#include <core/TimeStepper.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -115,33 +115,7 @@ void EnergyLedger::find_integrator() {
     const bool unchanged = integrator_ && engines.size() == checked_order_.size() &&
                            std::equal(engines.begin(), engines.end(), checked_order_.begin(), same);
     if (!unchanged) {
-        integrator_.reset();
-        const Engine* between = nullptr;
-        bool behind_this = false;
-        for (const auto& engine : engines) {
-            if (engine.get() == this) {
-                behind_this = true;
-            } else if (const auto newton = boost::dynamic_pointer_cast<const NewtonIntegrator>(engine)) {
-                if (behind_this)
-                    throw std::runtime_error("EnergyLedger stands before NewtonIntegrator in O.engines: must "
-                                             "stand after it, as the last engine");
-                if (integrator_)
-                    throw std::runtime_error("EnergyLedger: two NewtonIntegrators in O.engines; must be one");
-                integrator_ = newton;
-                between = nullptr;
-            } else if (!behind_this && (dynamic_cast<const TimeStepper*>(engine.get()) ||
-                                        engine->getClassName() == "ForceResetter")) {
-                between = engine.get();
-            }
-        }
-        if (!integrator_)
-            throw std::runtime_error("EnergyLedger: no NewtonIntegrator in O.engines; must stand after one");
-        if (between) {
-            integrator_.reset();
-            throw std::runtime_error("EnergyLedger: " + between->getClassName() +
-                                     " stands between NewtonIntegrator and the ledger; must stand before "
-                                     "NewtonIntegrator");
-        }
+        integrator_ = integrator_before(*this, engines);
         checked_order_.clear();
         for (const auto& engine : engines)
             checked_order_.push_back(engine.get());

@@ -68,7 +68,7 @@ public:
         .def("table", &EnergyLedger::table,
             "All terms by name [J]: stored (kineticTranslation, kineticRotation, potential, elasticNormal, elasticShear), dissipated since the "
             "start or since the contact law began to book (friction, viscous, rescaling, numericalDamping), supplied (imposedMotion, "
-            "permanentLoad), and residual, relativeResidual, energyInPlay, largestResidual, stepChangeEnergy.")
+            "permanentLoad, shearKinematics), and residual, relativeResidual, energyInPlay, largestResidual, stepChangeEnergy.")
         .def("update", &EnergyLedger::update,
             "Strike a balance now, for the last step. For engines that run after the ledger; in a scene that stands still the other "
             "members do it themselves.")

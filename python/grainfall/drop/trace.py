@@ -36,6 +36,7 @@ ENERGY_COLUMNS = (
     "friction_J",
     "viscous_J",
     "rescaling_J",
+    "shear_kinematics_J",
     "total_J",
 )
 #: Rows of the trace between two rows of energies, which cost a walk over all bodies and contacts.
@@ -156,6 +157,7 @@ def energy_row() -> tuple[float, ...]:
         terms["friction"],
         terms["viscous"],
         terms["rescaling"],
+        -terms["shearKinematics"],
     )
     return (O.time, *parts, sum(parts))
 
