@@ -58,6 +58,7 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::name_energies() {
     energy.findId("grainViscous", viscousIx, false, true);
     energy.findId("grainRescaling", rescalingIx, false, true);
     energy.findId("grainBridge", bridgeIx, false, true);
+    energy.findId("grainShearKinematics", kinematicsIx, false, true);
     energy_named_.store(true, std::memory_order_release);
 }
 
@@ -67,7 +68,7 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::book_bridge(Real work) {
     scene->energy->add(work, "grainBridge", bridgeIx, false);
 }
 
-void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real rescaling) {
+void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real rescaling, Real kinematics) {
     EnergyTracker& energy = *scene->energy;
     if (!energy_named_.load(std::memory_order_acquire))
         name_energies();
@@ -77,6 +78,8 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::book(Real friction, Real viscous, Real 
         energy.add(viscous, "grainViscous", viscousIx, false);
     if (rescaling != 0)
         energy.add(rescaling, "grainRescaling", rescalingIx, false);
+    if (kinematics != 0)
+        energy.add(kinematics, "grainShearKinematics", kinematicsIx, false);
 }
 
 boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy() const {

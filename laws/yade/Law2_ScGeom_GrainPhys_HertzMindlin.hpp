@@ -36,7 +36,7 @@ public:
     }
 
     /// Books energies [J] into O.energy; safe from all threads.
-    void book(Real friction, Real viscous, Real rescaling);
+    void book(Real friction, Real viscous, Real rescaling, Real kinematics);
     /// Work that went into a bridge which has ruptured.
     void book_bridge(Real work);
 
@@ -53,13 +53,15 @@ public:
         "Hertz-Mindlin contact with friction that may fall with load and moisture (MR-2629, Eq 3-6). Which kernel serves a contact is "
         "decided once, from these attributes and the contact's materials; :yref:`effects<Law2_ScGeom_GrainPhys_HertzMindlin.effects>` "
         "tells what runs and why. With O.trackEnergy the dissipated energies are booked into O.energy as grainFriction, grainViscous, "
-        "grainRescaling and grainBridge.",
+        "grainRescaling and grainBridge. YADE reckons shear displacement on the undeformed surfaces, but the force acts at the contact "
+        "point: grainShearKinematics is the work that the bodies do less than the springs and sliders take for that reason.",
         ((std::string, normalLaw, "hertz", , "'hertz': 4/3 E* sqrt(R*) overlap^1.5; 'report': MR-2629 Eq 3 as printed, half of that."))
         ((std::string, tangentialLaw, "incremental", , "'incremental': Mindlin's stiffness, shear force rescaled when the stiffness falls, so that no energy is made; 'mindlin-deresiewicz': partial slip, from the rim of the contact inwards (Mindlin & Deresiewicz 1953, by the method of Popov & Hess 2015); 'report': MR-2629 Eq 4-5 as printed; 'secant': stiffness times total tangential displacement (the law of Chung & Ooi's reference codes; makes energy on normal loading); 'none': frictionless."))
         ((int, frictionIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, viscousIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, rescalingIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, bridgeIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
+        ((int, kinematicsIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ,
         choose_kernels();
         ,

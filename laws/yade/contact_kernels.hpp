@@ -96,7 +96,7 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
         if constexpr (Energy::active && Tangential::active) {
             typename ContactLaw::Memory memory;
             recall(phys, memory);
-            law.book(0, 0, gl::shear_elastic_energy(memory));
+            law.book(0, 0, gl::shear_elastic_energy(memory), 0);
         }
         return false;
     }
@@ -113,12 +113,13 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     geometry.tilt = contact_tilt(geom);
     geometry.twist = contact_twist(geom);
     geometry.time_step = scene.dt;
+    Vector3r velocity_at_contact;
     if constexpr (Damping::active || Energy::active) {
         Vector3r shift_velocity = Vector3r::Zero();
         if (scene.isPeriodic)
             shift_velocity = scene.cell->intrShiftVel(contact.cellDist);
-        geometry.normal_velocity =
-            geom.getIncidentVel(&state1, &state2, scene.dt, shift2, shift_velocity, false).dot(geom.normal);
+        velocity_at_contact = geom.getIncidentVel(&state1, &state2, scene.dt, shift2, shift_velocity, false);
+        geometry.normal_velocity = velocity_at_contact.dot(geom.normal);
     }
 
     const gl::ContactParameters parameters{phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
@@ -127,12 +128,19 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     recall(phys, memory);
 
     Energy book;
-    if constexpr (Energy::active)
+    Vector3r shear_before;
+    if constexpr (Energy::active) {
         recall_viscous_forces<Normal>(phys, geom.normal, book);
+        shear_before = gl::rotated_with_contact(phys.shearForce, geometry);
+    }
     const gl::ContactForce force =
         ContactLaw::step(geometry, parameters, friction_of<Friction>(phys), memory, book);
-    if constexpr (Energy::active)
-        law.book(book.friction, book.viscous, book.rescaling);
+    if constexpr (Energy::active) {
+        // Forces lie in the contact plane: the normal part of the velocity does not count.
+        const Vector3r excess = geometry.shear_increment - scene.dt * velocity_at_contact;
+        const Real kinematics = Tangential::active ? -0.5 * (shear_before + force.shear).dot(excess) : 0;
+        law.book(book.friction, book.viscous, book.rescaling, kinematics);
+    }
 
     phys.kn = force.normal_stiffness;
     phys.ks = force.shear_stiffness;

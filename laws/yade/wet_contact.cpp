@@ -46,7 +46,7 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     bridge.remember(memory);
     if constexpr (Energy::active) {
         if (book.viscous != 0)
-            law.book(0, book.viscous, 0);
+            law.book(0, book.viscous, 0, 0);
         if (book.rupture != 0)
             law.book_bridge(book.rupture);
     }

@@ -42,6 +42,7 @@ public:
     void setPermTorque(Body::id_t id, const Vector3r& torque);
     const Vector3r& getPermForce(Body::id_t id);
     const Vector3r& getPermTorque(Body::id_t id);
+    bool getPermForceUsed() const;
     void sync();
     void addMaxId(Body::id_t id);
 

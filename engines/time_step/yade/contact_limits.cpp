@@ -38,15 +38,26 @@ struct ContactStiffness {
     ts::Stiffness dashpot; // N s/m
 };
 
+// N/m, slope of a bridge's attraction at the touch, where it is steepest (Willett et al. 2000, Eq 12). An
+// attraction that falls with distance is a spring of negative stiffness and makes no step unstable; counted
+// with its size, the fall of the force is resolved.
+Real bridge_stiffness(const GrainPhys& phys) {
+    const LiquidBridge* bridge = phys.bridge.get();
+    return bridge && bridge->formed ? 2.1 * bridge->contactForce * bridge->inverseLength : 0;
+}
+
 // Tangent stiffness and damping of a contact that `mass` [kg] goes on to load at `approach` [m/s] until it
 // stops: so the step need not change during an impact. Other springs between two bodies, such as the tangent
 // of a liquid bridge, belong here. Contacts that are not of GrainPhys count with the stiffness they have.
 ContactStiffness stiffness_ahead(const NormShearPhys& phys, Real overlap, Real mass, Real approach) {
     ContactStiffness ahead;
-    if (overlap < 0)
-        return ahead;
-    ahead.spring = {phys.kn, phys.ks};
     const auto* grain = dynamic_cast<const GrainPhys*>(&phys);
+    if (overlap < 0) {
+        if (grain)
+            ahead.spring.normal = bridge_stiffness(*grain);
+        return ahead;
+    }
+    ahead.spring = {phys.kn, phys.ks};
     if (!grain)
         return ahead;
     const Real hertz = 1.5 * grain->normalCoefficient * std::sqrt(overlap);

@@ -10,6 +10,8 @@ import numpy as np
 
 from grainfall.report.plots import CAMERA_RATE_PER_S, camera_average, camera_force
 
+DISSIPATED = ("friction", "viscous", "rescaling")
+
 
 def touch_time(trace: Mapping[str, np.ndarray]) -> float:
     """Time of the first row with a contact on the projectile [s]; of the last row if there is none."""
@@ -91,34 +93,33 @@ def stages(t: np.ndarray, smooth: np.ndarray, stop: float | None) -> dict[str, A
     }
 
 
-def energy_results(energy: Mapping[str, np.ndarray], mass: float, speed: float) -> dict[str, Any]:
-    """Residual of the energy balance.
+def energy_results(ledger: Any, energy: Mapping[str, np.ndarray]) -> dict[str, Any]:
+    """Residual of the energy balance and what took the energy.
 
     Parameters
     ----------
+    ledger : EnergyLedger or None
+        That of the scene; None if no energies were booked.
     energy : mapping of str to numpy.ndarray, shape (rows,)
-        Columns of `grainfall.drop.trace.ENERGY_COLUMNS`; may be empty.
-    mass, speed : float
-        Of the projectile at impact [kg], [m/s].
+        Columns of `grainfall.drop.trace.ENERGY_COLUMNS`.
 
     Returns
     -------
     dict
-        ``energy_residual_J``: largest change of the total; ``energy_residual_relative``: the same over the
-        energy in play, kinetic energy of the impact plus potential energy released; None without rows.
+        ``energy_residual_J``: largest residual at the balances of the run; ``energy_residual_relative``: the
+        same over the energy in play; None without a ledger.
     """
-    if len(energy["time_s"]) < 2:
+    if ledger is None or not ledger.energyInPlay:
         return {"energy_residual_relative": None}
-    total = energy["total_J"]
-    released = float(energy["potential_J"][0] - energy["potential_J"].min())
-    in_play = 0.5 * mass * speed**2 + released
-    residual = float(np.max(np.abs(total - total[0])))
+    last = ledger.table()
+    started = len(energy["time_s"]) > 0
+    first = {name: energy[f"{name}_J"][0] if started else 0.0 for name in DISSIPATED}
     return {
-        "energy_residual_J": residual,
-        "energy_residual_relative": residual / in_play,
-        "energy_in_play_J": in_play,
-        "dissipated_by_friction_J": float(energy["friction_J"][-1] - energy["friction_J"][0]),
-        "dissipated_by_dashpots_J": float(energy["viscous_J"][-1] - energy["viscous_J"][0]),
-        "dissipated_by_rescaling_J": float(energy["rescaling_J"][-1] - energy["rescaling_J"][0]),
-        "lost_in_ruptured_bridges_J": float(energy["ruptured_J"][-1] - energy["ruptured_J"][0]),
+        "energy_residual_J": ledger.largestResidual,
+        "energy_residual_relative": ledger.largestResidual / ledger.energyInPlay,
+        "energy_in_play_J": ledger.energyInPlay,
+        "dissipated_by_friction_J": last["friction"] - first["friction"],
+        "dissipated_by_dashpots_J": last["viscous"] - first["viscous"],
+        "dissipated_by_rescaling_J": last["rescaling"] - first["rescaling"],
+        "lost_in_ruptured_bridges_J": last["bridgeRupture"] - first["bridgeRupture"],
     }

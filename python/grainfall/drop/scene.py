@@ -15,6 +15,7 @@ from grainfall.bed_scene import WALL_COUNT, add_bed, restore_contacts
 from grainfall.beds import Bed, BedSpec
 from grainfall.contacts import Sand, contact_loop, rayleigh_step
 from grainfall.drop.parameters import GRAVITY
+from grainfall.drop.trace import ENERGY_EVERY
 from grainfall.projectiles import make_projectile, projectile
 
 #: The projectile starts this many mean grain diameters above the highest grain.
@@ -91,7 +92,6 @@ def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
     O.bodies.append(_projectile(p, bed))
     O.engines = _engines(p, sand, bed)
     O.dt = time_step(p, bed)
-    O.trackEnergy = not p["no_energy"]
     restore_contacts(bed)
 
 
@@ -143,13 +143,25 @@ def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
     stepper = [w.HertzTimeStepper(safety=p["dt_safety"], label="time_stepper")] if adaptive else []
     every = max(1, round(p["record_interval"] / time_step(p, bed)))
     rate = {"virtPeriod": p["record_interval"]} if adaptive else {"iterPeriod": every}
-    command = "import grainfall.drop.trace; grainfall.drop.trace.record()"
-    return [
+    command = "import grainfall.drop.trace; grainfall.drop.trace.{}()"
+    engines = [
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
         contact_loop(sand, pairs, contact),
         *stepper,
         w.ProjectileLoad(body=projectile_id(bed), label="projectile_load"),
-        w.PyRunner(command=command, label="recorder", **rate),
+        w.PyRunner(command=command.format("record"), label="recorder", **rate),
         w.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=0, label="integrator"),
+    ]
+    if p["no_energy"]:
+        return engines
+    every_energy = every * ENERGY_EVERY
+    return engines + [
+        w.EnergyLedger(iterPeriod=every_energy, label="energy_ledger"),
+        w.PyRunner(
+            command=command.format("record_energies"),
+            iterPeriod=every_energy,
+            initRun=True,
+            label="energy_recorder",
+        ),
     ]

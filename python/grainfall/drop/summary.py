@@ -70,11 +70,9 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
         "threads": O.numThreads,
     }
     if len(trace["time_s"]) > 1:
-        results = drop_results(trace, p["mass"], p["rest_speed"])
-        summary.update(results)
-        summary.update(
-            energy_results(run.trace.energy_arrays(), p["mass"], results["impact_speed_m_per_s"])
-        )
+        summary.update(drop_results(trace, p["mass"], p["rest_speed"]))
+        ledger = None if p["no_energy"] else builtins.energy_ledger
+        summary.update(energy_results(ledger, run.trace.energy_arrays()))
     summary.update(coarsening(p, bed))
     summary["largest_overlap_over_radius"] = run.snapshots.largest_relative_overlap
     summary["effects"] = dict(builtins.contact_law.effects)
@@ -156,6 +154,12 @@ def notes(summary: dict[str, Any], p: dict[str, Any]) -> list[str]:
         lines.append(
             f"The largest overlap seen is {100 * overlap:.1f} % of a grain's radius: the grains are soft "
             "(--young); below 1 % stiffness hardly matters."
+        )
+    residual = summary.get("energy_residual_relative")
+    if residual is not None and residual > p["energy_limit"]:
+        lines.append(
+            f"WARNING: the energy balance is off by {residual:.1e} of the energy in play, more than "
+            f"--energy-limit {p['energy_limit']:g}: reduce --dt-safety."
         )
     if p["moisture"] > 0 and not p["moisture_factor"] and p["bridges"] == "none":
         lines.append(

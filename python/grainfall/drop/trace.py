@@ -14,9 +14,7 @@ from typing import Any
 
 import h5py
 import numpy as np
-from yade import O, Vector3, utils
-
-from grainfall.drop.parameters import GRAVITY
+from yade import O, Vector3
 
 COLUMNS = (
     "time_s",
@@ -40,6 +38,7 @@ ENERGY_COLUMNS = (
     "viscous_J",
     "rescaling_J",
     "ruptured_J",
+    "shear_kinematics_J",
     "total_J",
 )
 #: Rows of the trace between two rows of energies, which cost a walk over all bodies and contacts.
@@ -71,8 +70,10 @@ class Trace:
     def record(self) -> None:
         """Add a row; called by the recorder between force computation and integration."""
         self.rows.append(self._row())
-        if O.trackEnergy and (len(self.rows) - 1) % ENERGY_EVERY == 0:
-            self.energies.append(energy_row())
+
+    def record_energies(self) -> None:
+        """Add a row of energies; called after the ledger of the same step."""
+        self.energies.append(energy_row())
 
     def _row(self) -> tuple[float, ...]:
         body = O.bodies[self.body]
@@ -146,23 +147,21 @@ class Trace:
 
 
 def energy_row() -> tuple[float, ...]:
-    """Energies of the scene now [J], in the order of `ENERGY_COLUMNS`.
-
-    Positions and contact forces belong to one moment, velocities to half a step earlier (leapfrog).
-    """
-    law = _engine("contact_law")
-    elastic = law.elasticEnergy()
-    booked = dict(O.energy.items())
+    """Energies of the scene in this step [J] from its ledger, in the order of `ENERGY_COLUMNS`."""
+    ledger = _engine("energy_ledger")
+    ledger.update()
+    terms = ledger.table()
     parts = (
-        utils.kineticEnergy(),
-        GRAVITY * sum(b.state.mass * b.state.pos[2] for b in O.bodies),
-        elastic["normal"],
-        elastic["shear"],
-        elastic["bridge"],
-        booked.get("grainFriction", 0.0),
-        booked.get("grainViscous", 0.0),
-        booked.get("grainRescaling", 0.0),
-        booked.get("grainBridge", 0.0),
+        terms["kineticTranslation"] + terms["kineticRotation"],
+        terms["potential"],
+        terms["elasticNormal"],
+        terms["elasticShear"],
+        terms["bridge"],
+        terms["friction"],
+        terms["viscous"],
+        terms["rescaling"],
+        terms["bridgeRupture"],
+        -terms["shearKinematics"],
     )
     return (O.time, *parts, sum(parts))
 
@@ -193,3 +192,9 @@ def record() -> None:
     """Called by the recorder's engine; without a trace (scene loaded by hand) nothing is recorded."""
     if _current is not None:
         _current.record()
+
+
+def record_energies() -> None:
+    """Called by the engine behind the ledger."""
+    if _current is not None:
+        _current.record_energies()
