@@ -40,7 +40,7 @@ inline constexpr double slip_resolution = 1e-4;
 //
 // What one step adds is mostly too little to matter: the pieces are only brought up to date once overlap,
 // limit or shear have changed by `slip_resolution`. Until then they are stretched by `pending` as a whole, as
-// if all stuck. That is elastic too, so it makes no energy either; the force is off by at most 3/2
+// if all stuck. That is elastic too, so it makes no energy either; the force is off by about
 // slip_resolution mu F_n.
 struct SlipHistory {
     SlipPieces<slip_pieces> pieces;
