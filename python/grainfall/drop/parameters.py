@@ -173,7 +173,9 @@ SAND = (
     ),
     Option("bridges_per_grain", 6.0, "bridges that share a grain's water", "-", low=1, high=14),
     Option("surface_tension", 0.0728, "of the water", "N/m", low=0, high=1, open_low=True),
-    Option("contact_angle", 0.0, "of the water on grains and projectile", "rad", low=0, high=0.8727),
+    Option(
+        "contact_angle", 0.0, "of the water on grains and projectile", "rad", low=0, high=0.8727
+    ),
     Option(
         "liquid_viscosity",
         0.0,
