@@ -109,7 +109,9 @@ def _come_to_rest(
     )
     O.reset()
     wall_friction = bed.spec.wall_friction
-    wall = sand.material("wall", friction=wall_friction, referenceRadius=0.0)
+    wall = sand.material(
+        "wall", friction=wall_friction, referenceRadius=0.0, gravimetricMoisture=0.0
+    )
     add_bed(bed, sand.material("sand"), wall)
     pair = yade.wrapper.GrainPair("sand", "wall", friction=wall_friction)
     O.engines = [

@@ -87,7 +87,9 @@ def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
     p = parameters
     sand = sand_of(p)
     O.reset()
-    wall = sand.material("wall", friction=p["wall_friction"], referenceRadius=0.0)
+    wall = sand.material(
+        "wall", friction=p["wall_friction"], referenceRadius=0.0, gravimetricMoisture=0.0
+    )
     add_bed(bed, sand.material("sand"), wall)
     O.bodies.append(_projectile(p, bed))
     O.engines = _engines(p, sand, bed)
