@@ -96,6 +96,8 @@ def plot(results: dict, path: Path) -> None:
     right.loglog(fractions, results["bed"], "o-", label="512 grains settle in a box")
     right.loglog(fractions, 0.09 * fractions**2, "k:", label="second order")
     right.set(xlabel="time step / Rayleigh step", title="bed")
+    right.set_xticks(fractions, [f"{fraction:g}" for fraction in fractions])
+    right.minorticks_off()
     for axes in (left, right):
         axes.axhline(1e-3, color="0.7", linewidth=0.8)
         axes.legend(fontsize=8)
