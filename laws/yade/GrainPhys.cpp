@@ -15,6 +15,7 @@ void GrainPhys::resolve_friction() {
 void GrainPhys::part() {
     kn = ks = 0;
     normalForce = shearForce = shearElastic = Vector3r::Zero();
+    partialSlip.reset();
     isSliding = false;
 }
 

@@ -149,6 +149,9 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
         phys.shearForce = force.shear;
         keep(phys, memory);
         phys.isSliding = force.sliding;
+    } else {
+        // Another law may have acted before.
+        phys.shearForce = phys.shearElastic = Vector3r::Zero();
     }
     apply_force(law, phys.normalForce + phys.shearForce, geom, contact, state1, state2, shift2);
     return true;

@@ -35,10 +35,10 @@ from yade import (
     utils,
 )
 
-TANGENTIAL_LAWS = ("incremental", "secant", "report", "none")
-# The other two make energy by construction (secant on normal loading, the report's Eq 4 on unloading) and book what
+TANGENTIAL_LAWS = ("incremental", "mindlin-deresiewicz", "secant", "report", "none")
+# Secant and report make energy by construction (secant on normal loading, the report's Eq 4 on unloading) and book what
 # they make as negative grainRescaling.
-ENERGY_SAFE = ("incremental", "none")
+ENERGY_SAFE = ("incremental", "mindlin-deresiewicz", "none")
 
 CURVES = {
     "constant": lambda: ConstantFriction(0.5),

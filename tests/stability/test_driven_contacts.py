@@ -181,4 +181,11 @@ def test_ten_thousand_small_cycles_do_not_ratchet(law):
     assert moved[:, :2].max() < 0.01 * amplitude
     # Settling under the weight, half an overlap of 2e-10 m at first, has died out meanwhile.
     assert moved[:, 2].max() < amplitude
-    assert hs.booked()["grainFriction"] == 0
+    heat = hs.booked()["grainFriction"]
+    if law == "mindlin-deresiewicz":
+        # The rim of a contact slips however small the cycle; its share of the elastic energy is of the order of the
+        # amplitude over that of full slip, here a sixtieth.
+        swings = sum(0.5 * i.phys.ks * amplitude**2 for i in O.interactions if i.isReal)
+        assert 0 < heat < cycles * swings / 60
+    else:
+        assert heat == 0

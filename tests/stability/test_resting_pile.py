@@ -11,7 +11,7 @@ from yade import O, utils
 
 GRAVITY = 9.81
 # A million for the default law, a tenth for the others: a million steps of these piles take most of a minute.
-STEPS = {"incremental": 1_000_000, "secant": 100_000, "report": 100_000, "none": 100_000}
+STEPS = {law: 100_000 for law in hs.TANGENTIAL_LAWS} | {"incremental": 1_000_000}
 
 
 def add_pile(curve: str, y: float) -> list[int]:
