@@ -17,7 +17,7 @@ BED = {"box_length": 0.08, "box_width": 0.08, "bed_depth": 0.07}
 FIXED = {
     "preset": "m70-half",
     **BED,
-    "duration": 0.08,
+    "duration": 0.06,
     "vtk_interval": 0,
     "checkpoint_interval": 1.0,
     "no_plots": True,
@@ -51,30 +51,30 @@ def distance(result: Any, truth: Any) -> float:
 CASE = Case(
     name="small_drop",
     error="depth, relative to the finest grains [-]",
-    cost="one drop of 80 ms",
+    cost="one drop of 60 ms",
     run=run,
-    reference={"grain_diameter": 3.5e-3},
+    reference={"grain_diameter": 4e-3},
     distance=distance,
     knobs=(
         Knob(
             "grain diameter [mm]",
-            {f"{1e3 * d:g}": {"grain_diameter": d} for d in (12e-3, 10e-3, 8e-3, 6e-3, 4.5e-3)},
+            {f"{1e3 * d:g}": {"grain_diameter": d} for d in (12e-3, 10e-3, 8e-3, 6e-3, 5e-3)},
         ),
-        Knob("packing (seed), 6 mm", {str(seed): {"seed": seed} for seed in range(1, 6)}),
+        Knob("packing (seed), 6 mm", {str(seed): {"seed": seed} for seed in range(1, 5)}),
         Knob(
             "step over Rayleigh step, 6 mm",
-            {f"{s:g}": {"dt_safety": s} for s in (0.4, 0.3, 0.2, 0.1, 0.05)},
+            {f"{s:g}": {"dt_safety": s} for s in (0.4, 0.3, 0.2, 0.1)},
         ),
         Knob(
             "tangential law, 6 mm",
             {
                 law: {"tangential_law": law}
-                for law in ("none", "incremental", "secant", "mindlin-deresiewicz")
+                for law in ("none", "incremental", "mindlin-deresiewicz")
             },
         ),
         Knob(
             "Young's modulus of the grains [Pa], 6 mm",
-            {f"{e:.0e}": {"young": e} for e in (5e7, 2e8, 5e8, 2e9)},
+            {f"{e:.0e}": {"young": e} for e in (5e7, 2e8, 5e8)},
         ),
     ),
 )
