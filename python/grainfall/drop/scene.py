@@ -14,28 +14,11 @@ from yade import O, Quaternion
 from grainfall.bed_scene import WALL_COUNT, add_bed, restore_contacts
 from grainfall.beds import Bed, BedSpec
 from grainfall.contacts import Sand, contact_loop, rayleigh_step
-from grainfall.drop.parameters import GRAVITY
+from grainfall.constants import GRAVITY
 from grainfall.projectiles import make_projectile, projectile
 
 #: The projectile starts this many mean grain diameters above the highest grain.
 CLEARANCE_DIAMETERS = 0.5
-
-
-def sand_of(parameters: Mapping[str, Any]) -> Sand:
-    """Contact parameters of the sand."""
-    p = parameters
-    return Sand(
-        density=p["grain_density"],
-        young=p["young"],
-        poisson=p["poisson"],
-        restitution=p["restitution"],
-        friction=p["friction"],
-        moisture=p["moisture"],
-        moisture_factor=p["moisture_factor"],
-        reference_diameter=p["reference_diameter"],
-        normal_law=p["normal_law"],
-        tangential_law=p["tangential_law"],
-    )
 
 
 def bed_spec(parameters: Mapping[str, Any]) -> BedSpec:
@@ -51,7 +34,7 @@ def bed_spec(parameters: Mapping[str, Any]) -> BedSpec:
         solid_fraction=p["solid_fraction"],
         wall_friction=p["wall_friction"],
         seed=p["seed"],
-        sand=sand_of(p),
+        sand=Sand.of(p),
     )
 
 
@@ -71,7 +54,7 @@ def time_step(parameters: Mapping[str, Any], bed: Bed) -> float:
     """Time step [s]: as given, or a fraction of the smallest grain's Rayleigh step."""
     if parameters["time_step"] is not None:
         return parameters["time_step"]
-    sand = sand_of(parameters)
+    sand = Sand.of(parameters)
     rayleigh = rayleigh_step(float(bed.radii.min()), sand.density, sand.young, sand.poisson)
     return parameters["dt_safety"] * rayleigh
 
@@ -79,7 +62,7 @@ def time_step(parameters: Mapping[str, Any], bed: Bed) -> float:
 def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
     """Fill an empty scene: bodies, engines, step. Labels: see `_engines`."""
     p = parameters
-    sand = sand_of(p)
+    sand = Sand.of(p)
     O.reset()
     wall = sand.material("wall", friction=p["wall_friction"], referenceRadius=0.0)
     add_bed(bed, sand.material("sand"), wall)

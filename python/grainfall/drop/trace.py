@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 from yade import O, Vector3, utils
 
-from grainfall.drop.parameters import GRAVITY
+from grainfall.constants import GRAVITY
 
 COLUMNS = (
     "time_s",
