@@ -6,14 +6,16 @@ import time
 
 from yade import O
 
-#: Wall time between two looks at the running simulation [s].
-POLL = 0.02
+#: Wall time between two looks at the running simulation [s]: short at first, for runs of a few steps, then longer.
+FIRST_POLL, LONGEST_POLL = 0.5e-3, 20e-3
 
 
 def wait() -> None:
     """Wait for the simulation to stop; an error in one of its engines is raised here."""
+    poll = FIRST_POLL
     while O.running:
-        time.sleep(POLL)
+        time.sleep(poll)
+        poll = min(2 * poll, LONGEST_POLL)
     O.wait()
 
 

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The cyclic stage: the upper platen follows haversines, the force is read at both platens.
 
-The lower platen is the report's load cell. At rest both platens feel the same force; in motion they differ by the inertia
-of the sand between them. For a uniform bar of wave speed c, height H, and theta = w H/c, the fixed end answers with
-k theta/sin(theta) = k (1 + theta^2/6 + ...) and the driven end with k theta/tan(theta) = k (1 - theta^2/3 - ...), so that
-(2 x fixed + driven)/3 is free of inertia to the order theta^4.
+The lower platen is the report's load cell. At rest both platens feel the same force; in motion they differ by the
+inertia of the sand between them. For a uniform bar of wave speed c, height H, and theta = w H/c, the fixed end answers
+with k theta/sin(theta) = k (1 + theta^2/6 + ...) and the driven end with k theta/tan(theta) = k (1 - theta^2/3 - ...),
+so that (2 x fixed + driven)/3 is free of inertia to the order theta^4.
 """
 from __future__ import annotations
 
+import builtins
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -15,13 +16,14 @@ from typing import Any
 import numpy as np
 from yade import O, Vector3
 
-from grainfall.dynamics import Response, multisine, stiffness_and_damping
+from grainfall.dynamics import Response, stiffness_and_damping
 from grainfall.triaxial import scene
 from grainfall.triaxial.checks import common_period
 from grainfall.triaxial.samples import Sample
 
-#: Rows recorded in a period of the highest frequency; each is a mean over the steps in between.
-ROWS_PER_PERIOD = 64
+#: Rows recorded in a period of the highest frequency, and samples of which each row is the mean. Between two the
+#: platen moves at constant speed: 1024 in a period keep its path within 2e-6 of the amplitude from the haversine.
+ROWS_PER_PERIOD, SAMPLES_PER_ROW = 64, 16
 COLUMNS = ("time_s", "displacement_m", "lower_force_N", "upper_force_N")
 
 
@@ -48,46 +50,53 @@ class CyclicTest:
         self.peak_to_peak = peak_to_peak
         self.period = common_period(frequencies)
         rows = ROWS_PER_PERIOD * max(1, round(self.period * max(frequencies)))
-        self.steps_per_row = max(1, math.ceil(self.period / rows / longest_step))
-        self.steps_per_cycle = rows * self.steps_per_row
+        steps_per_row = max(1, math.ceil(self.period / rows / longest_step))
+        self.stride = max(1, steps_per_row // SAMPLES_PER_ROW)
+        self.samples_per_row = math.ceil(steps_per_row / self.stride)
+        self.steps_per_cycle = rows * self.samples_per_row * self.stride
         self.step = self.period / self.steps_per_cycle
         self.rows: list[tuple[float, ...]] = []
         self.cycle_ends: list[int] = []
         self.work = 0.0
         self._start = O.time
+        self._share = 0.5 * peak_to_peak / len(self.frequencies)
+        self._omegas = [2 * math.pi * frequency for frequency in self.frequencies]
         self._zero = scene.top_height(sample)
-        self._body = O.bodies[sample.top_platen]
-        self._sum = np.zeros(4)
+        self._state = O.bodies[sample.top_platen].state
+        self._sums = [0.0] * len(COLUMNS)
         self._count = 0
         self._last: tuple[float, float] | None = None
 
     def target(self, time: float) -> float:
-        """Displacement at this time since the start [m]; over the first cycle the amplitude grows from zero."""
-        grown = 1.0
+        """Displacement at this time since the start [m]; over the first cycle the amplitude grows from zero.
+
+        `grainfall.dynamics.multisine` times the growth, for one moment at a time.
+        """
+        total = self._share * sum(1.0 - math.cos(omega * time) for omega in self._omegas)
         if time < self.period:
-            grown = 0.5 * (1 - math.cos(math.pi * time / self.period))
-        return grown * float(multisine(time, self.peak_to_peak, self.frequencies))
+            total *= 0.5 * (1 - math.cos(math.pi * time / self.period))
+        return total
 
     def drive(self) -> None:
-        """Record this moment and send the platen to where it must be after the step; called in every step.
+        """Record this moment and send the platen to where it must be at the next call, `stride` steps on.
 
         Forces and positions belong to the same moment here, between the contacts and the integrator.
         """
         now = O.time - self._start
-        displacement = self._zero - self._body.state.pos[2]
+        displacement = self._zero - self._state.pos[2]
         below, above = scene.platen_forces(self.sample)
         if self._last is not None:
-            moved = displacement - self._last[0]
-            self.work += 0.5 * (above + self._last[1]) * moved
+            self.work += 0.5 * (above + self._last[1]) * (displacement - self._last[0])
         self._last = (displacement, above)
-        self._sum += (now, displacement, below, above)
+        row = (now, displacement, below, above)
+        self._sums = [total + value for total, value in zip(self._sums, row)]
         self._count += 1
-        if self._count == self.steps_per_row:
-            self.rows.append(tuple(self._sum / self._count))
-            self._sum[:] = 0.0
+        if self._count == self.samples_per_row:
+            self.rows.append(tuple(total / self._count for total in self._sums))
+            self._sums = [0.0] * len(COLUMNS)
             self._count = 0
-        ahead = self.target(now + O.dt)
-        self._body.state.vel = Vector3(0, 0, (displacement - ahead) / O.dt)
+        span = self.stride * self.step
+        self._state.vel = Vector3(0, 0, (displacement - self.target(now + span)) / span)
 
     def end_cycle(self) -> None:
         """Mark the end of a cycle in the record."""
@@ -135,20 +144,29 @@ def inertia_free(lower: Response, upper: Response) -> complex:
 _current: CyclicTest | None = None
 
 
-def set_current(test: CyclicTest | None) -> None:
-    """Name the test that the actuator of the scene in hand serves."""
+def start(test: CyclicTest) -> None:
+    """Let the actuator of the scene in hand serve this test from the next step on."""
     global _current
     _current = test
+    O.dt = test.step
+    builtins.actuator.iterPeriod = test.stride
+    builtins.actuator.iterLast = O.iter - test.stride
+
+
+def stop() -> None:
+    """Leave the actuator without a test: a scene loaded by hand, or between two tests."""
+    global _current
+    _current = None
 
 
 def drive() -> None:
-    """Called by the actuator's engine; without a test (scene loaded by hand) the platen keeps its velocity."""
+    """Called by the actuator's engine; without a test the platen keeps its velocity."""
     if _current is not None:
         _current.drive()
 
 
 def actuator() -> Any:
-    """The engine that calls `drive` in every step."""
+    """The engine that calls `drive`."""
     import yade.wrapper
 
     command = "import grainfall.triaxial.cyclic; grainfall.triaxial.cyclic.drive()"

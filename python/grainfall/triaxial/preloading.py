@@ -14,13 +14,13 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from yade import O, Vector3, utils
+from yade import O, Vector3
 
 from grainfall.running import advance
 from grainfall.triaxial import scene
 from grainfall.triaxial.samples import Sample
 
-DAMPING = 0.3
+DAMPING = 0.5
 #: Steps of each small rise of stress, and how many rises each ramp has.
 RISE_STEPS, RISES = 100, 12
 REST_STEPS, MOST_RESTS = 500, 24
@@ -67,7 +67,7 @@ def preload(
         "diameter_m": 2 * membrane.radius,
         "height_m": scene.top_height(sample),
         "coordination_number": coordination(sample),
-        "unbalanced_force": utils.unbalancedForce(),
+        "unbalanced_force": scene.unbalanced_force(sample),
         "creep_strain": creep,
         "steps": O.iter,
     }
@@ -94,7 +94,7 @@ def _rest(
     for rests in range(1, MOST_RESTS + 1):
         _set_step(sample, parameters)
         advance(REST_STEPS)
-        unbalanced = utils.unbalancedForce()
+        unbalanced = scene.unbalanced_force(sample)
         progress(0.5 + 0.4 * rests / MOST_RESTS, f"unbalanced {unbalanced:.1e}")
         if unbalanced < UNBALANCED_LIMIT:
             break

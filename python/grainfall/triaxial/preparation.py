@@ -17,7 +17,7 @@ import math
 import time
 
 import numpy as np
-from yade import O, utils
+from yade import O
 
 from grainfall.bed_scene import grain_centres
 from grainfall.contacts import Sand, rayleigh_step
@@ -72,7 +72,7 @@ def prepare_sample(spec: SampleSpec, progress: Progress) -> Sample:
         "height_m": sample.top,
         "coordination_number": coordination_number(sample),
         "friction_at_which_the_void_ratio_was_reached": friction,
-        "unbalanced_force": utils.unbalancedForce(),
+        "unbalanced_force": scene.unbalanced_force(sample),
         "preparation_steps": O.iter,
         "preparation_wall_seconds": time.time() - started,
     }
@@ -121,7 +121,9 @@ def _compress(sample: Sample, progress: Progress) -> Membrane:
         advance(CHUNK)
         progress("compress", chunk / limit)
         present = scene.volume(sample, membrane)
-        settled = abs(previous / present - 1) < STRAIN_LIMIT and utils.unbalancedForce() < 0.1
+        settled = (
+            abs(previous / present - 1) < STRAIN_LIMIT and scene.unbalanced_force(sample) < 0.1
+        )
         if pressure == sample.spec.pressure and settled:
             break
         previous = present
@@ -161,11 +163,11 @@ def _rest(sample: Sample, progress: Progress) -> None:
     """Let the sample come to rest; the membrane follows it until it hardly moves, then its forces are kept."""
     for chunk in range(MAX_CHUNKS["rest"]):
         _follow_stiffness(sample, chunk)
-        if chunk == 0 or utils.unbalancedForce() > FREEZING_LIMIT:
+        if chunk == 0 or scene.unbalanced_force(sample) > FREEZING_LIMIT:
             scene.load(sample, sample.spec.pressure, sample.spec.pressure)
         advance(CHUNK)
         progress("rest", chunk / MAX_CHUNKS["rest"])
-        if utils.unbalancedForce() < UNBALANCED_LIMIT:
+        if scene.unbalanced_force(sample) < UNBALANCED_LIMIT:
             break
 
 

@@ -26,7 +26,7 @@ from grainfall.triaxial import cyclic, scene
 from grainfall.triaxial.loops import write_loops
 from grainfall.triaxial.parameters import TABLE, frequency_list, peak_to_peak, softness
 from grainfall.triaxial.preloading import preload
-from grainfall.triaxial.samples import Sample, SampleSpec, load_sample, obtain_sample, save_sample
+from grainfall.triaxial.samples import SampleSpec, load_sample, obtain_sample, save_sample
 from grainfall.triaxial.summary import make_summary, print_summary, test_results
 
 STATE, PARAMETERS, SAMPLE = "state.yade.gz", "parameters.json", "sample.h5"
@@ -138,7 +138,7 @@ class TriaxialRun:
         except KeyboardInterrupt:
             self.interrupted = True
         finally:
-            cyclic.set_current(None)
+            cyclic.stop()
         return self._finish()
 
     def _prepare(self) -> None:
@@ -179,8 +179,7 @@ class TriaxialRun:
         p = self.parameters
         longest = p["dt_safety"] * scene.stable_step(self.sample)
         test = cyclic.CyclicTest(self.sample, frequencies, peak_to_peak(p), longest)
-        O.dt = test.step
-        cyclic.set_current(test)
+        cyclic.start(test)
         before, places = scene.energies(), grain_centres(len(self.sample.radii))
         name = " + ".join(f"{frequency:g}" for frequency in frequencies) + " Hz"
         progress = Progress(name, p["quiet"])
@@ -196,7 +195,7 @@ class TriaxialRun:
             if cycle >= p["least_cycles"] and test.change() < p["steady_change"]:
                 break
         progress.close()
-        cyclic.set_current(None)
+        cyclic.stop()
         outside = self._outside_work(places)
         self.finished["tests"].append(test_results(test, p, before, scene.energies(), outside))
         write_loops(test, self.folder, len(self.finished["tests"]))

@@ -132,6 +132,26 @@ def platen_forces(sample: Sample) -> tuple[float, float]:
     return below, above
 
 
+def unbalanced_force(sample: Sample) -> float:
+    """Mean resultant on a grain over mean force in a contact; membrane and weight count as forces.
+
+    YADE's own measure also takes in the upper platen, whose resultant never falls to that of a grain.
+    """
+    forces = O.forces
+    mass_forces = O.engines[-1].gravity
+    resultants = [
+        (forces.f(i) + O.bodies[i].state.mass * mass_forces).norm()
+        for i in range(len(sample.radii))
+    ]
+    contacts = [
+        (contact.phys.normalForce + contact.phys.shearForce).norm()
+        for contact in O.interactions
+        if contact.isReal
+    ]
+    mean_contact = float(np.mean(contacts)) if contacts else 0.0
+    return float(np.mean(resultants)) / mean_contact if mean_contact else math.inf
+
+
 def mean_stress(sample: Sample, membrane: Membrane) -> np.ndarray:
     """Mean stress between platens and membrane from the contact forces (Love-Weber), shape (3, 3) [Pa].
 

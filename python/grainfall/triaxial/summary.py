@@ -140,8 +140,8 @@ def _joined(tests: list[dict[str, Any]]) -> dict[str, Any]:
 def _equivalent(summary: dict[str, Any], run: TriaxialRun) -> dict[str, Any]:
     """The sample's Young's modulus, and k and b of the report's sample with the reference grains.
 
-    Under the same stresses contact stiffness goes with (Young's modulus)^(2/3); k with area over height. The loss factor
-    w b/k is kept, as it is where friction makes the loss.
+    Under the same stresses contact stiffness goes with (Young's modulus)^(2/3); k with area over height. The loss
+    factor w b/k is kept, as it is where friction makes the loss.
     """
     state = run.finished["preload"]
     slimness = state["height_m"] / (math.pi / 4 * state["diameter_m"] ** 2)
@@ -172,14 +172,14 @@ def notes(summary: dict[str, Any], p: dict[str, Any]) -> list[str]:
     lines = []
     if summary["grain_enlargement"] > 1:
         lines.append(
-            f"Grains are {summary['grain_enlargement']:.1f} times larger than the real ones: {summary['particles']} stand "
-            f"for {summary['real_grains']:.3g}. Friction is read at the load divided by the square of that."
+            f"Grains are {summary['grain_enlargement']:.1f} times larger than the real ones: {summary['particles']} "
+            f"stand for {summary['real_grains']:.3g}. Friction is read at the load divided by the square of that."
         )
     if summary["modulus_over_real"] < 1:
         lines.append(
             f"Grains are {1 / summary['modulus_over_real']:.3g} times softer than the real ones and the platen moves "
-            f"{peak_to_peak(p) / real_peak_to_peak(p):.3g} times as far; stiffness_N_per_m is that of the simulated sample, "
-            "equivalent_stiffness_N_per_m that of the report's sample with the real modulus."
+            f"{peak_to_peak(p) / real_peak_to_peak(p):.3g} times as far; stiffness_N_per_m is that of the simulated "
+            "sample, equivalent_stiffness_N_per_m that of the report's sample with the real modulus."
         )
     if real_peak_to_peak(p) / p["height"] > REPORT_PEAK_TO_PEAK / REPORT_HEIGHT:
         lines.append(
