@@ -85,9 +85,7 @@ class CyclicTest:
         now = O.time - self._start
         displacement = self._zero - self._state.pos[2]
         below, above = scene.platen_forces(self.sample)
-        if self._last is not None:
-            self.work += 0.5 * (above + self._last[1]) * (displacement - self._last[0])
-        self._last = (displacement, above)
+        self._book_work(displacement, above)
         row = (now, displacement, below, above)
         self._sums = [total + value for total, value in zip(self._sums, row)]
         self._count += 1
@@ -98,9 +96,16 @@ class CyclicTest:
         span = self.stride * self.step
         self._state.vel = Vector3(0, 0, (displacement - self.target(now + span)) / span)
 
+    def _book_work(self, displacement: float, force: float) -> None:
+        """Add the work since the last call [J]."""
+        if self._last is not None:
+            self.work += 0.5 * (force + self._last[1]) * (displacement - self._last[0])
+        self._last = (displacement, force)
+
     def end_cycle(self) -> None:
-        """Mark the end of a cycle in the record."""
+        """Mark the end of a cycle in the record; the work is complete up to here."""
         self.cycle_ends.append(len(self.rows))
+        self._book_work(self._zero - self._state.pos[2], scene.platen_forces(self.sample)[1])
 
     def table(self, cycles: int | None = None) -> np.ndarray:
         """The record, or its last cycles, shape (rows, 4), columns `COLUMNS`."""

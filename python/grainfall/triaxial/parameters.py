@@ -90,6 +90,15 @@ LOADING = (
         high=3,
     ),
     Option(
+        "preload_friction",
+        None,
+        "constant friction during preloading, so that runs of different friction start from the same state "
+        "(default: the sand's own)",
+        "-",
+        low=0,
+        high=5,
+    ),
+    Option(
         "frequencies",
         "10,20,40,80,150",
         "frequencies, tested one after the other, each between 1 and 1000",

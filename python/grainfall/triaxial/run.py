@@ -7,6 +7,7 @@ import json
 import os
 import sys
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +22,12 @@ from grainfall.materials import check_scene
 from grainfall.options import OptionError
 from grainfall.price import Clock
 from grainfall.progress import Progress
-from grainfall.running import advance
+from grainfall.running import advance, undisturbed
 from grainfall.triaxial import cyclic, scene
 from grainfall.triaxial.loops import write_loops
 from grainfall.triaxial.parameters import TABLE, frequency_list, peak_to_peak, softness
 from grainfall.triaxial.preloading import preload
+from grainfall.triaxial.preparation import read_state
 from grainfall.triaxial.samples import SampleSpec, load_sample, obtain_sample, save_sample
 from grainfall.triaxial.summary import make_summary, print_summary, test_results
 
@@ -133,8 +135,11 @@ class TriaxialRun:
         yade.timing.reset()
         try:
             for stretch in self.stretches[len(self.finished["tests"]) :]:
-                self._cycle(stretch)
-                self._checkpoint()
+                test, results = self._cycle(stretch)
+                with undisturbed():
+                    self.finished["tests"].append(results)
+                    write_loops(test, self.folder, len(self.finished["tests"]))
+                    self._checkpoint()
         except KeyboardInterrupt:
             self.interrupted = True
         finally:
@@ -152,12 +157,19 @@ class TriaxialRun:
         )
         progress.close()
         self.clock.lap("sample preparation")
-        scene.build(self.sample, Sand.of(p), p["platen_friction"], p["gravity"])
-        for warning in check_scene():
-            print(f"warning: {warning}", file=sys.stderr)
+        sand = Sand.of(p)
+        self._build(
+            sand
+            if p["preload_friction"] is None
+            else replace(sand, friction=str(p["preload_friction"]))
+        )
         progress = Progress("preloading", p["quiet"])
         self.finished["preload"] = preload(self.sample, p, progress.update)
         progress.close()
+        if p["preload_friction"] is not None:
+            self._change_friction(sand)
+        for warning in check_scene():
+            print(f"warning: {warning}", file=sys.stderr)
         O.engines = [*O.engines[:3], cyclic.actuator(), *O.engines[3:]]
         O.trackEnergy = not p["no_energy"]
         self.clock.lap("preloading")
@@ -165,7 +177,24 @@ class TriaxialRun:
             old.unlink()
         (self.folder / PARAMETERS).write_text(json.dumps(p, indent=1))
         save_sample(self.sample, self.folder / SAMPLE)
-        self._checkpoint()
+        with undisturbed():
+            self._checkpoint()
+
+    def _build(self, sand: Sand) -> None:
+        """The sample in an empty scene, of this sand."""
+        scene.build(
+            self.sample, sand, self.parameters["platen_friction"], self.parameters["gravity"]
+        )
+
+    def _change_friction(self, sand: Sand) -> None:
+        """Put the preloaded sample, shear forces included, into a new scene of this sand."""
+        step = O.dt
+        held = np.array([O.forces.permF(i) for i in range(len(self.sample.radii))])
+        read_state(self.sample)
+        self._build(sand)
+        scene.apply_forces(held)
+        O.dt = step
+        advance(1)
 
     def _load(self) -> None:
         """Scene and sample of the interrupted run, after the last stretch that it finished."""
@@ -174,13 +203,14 @@ class TriaxialRun:
         O.load(str(self.folder / STATE), quiet=True)
         scene.apply_forces(np.load(self.folder / FORCES))
 
-    def _cycle(self, frequencies: list[float]) -> None:
-        """Cycle at these frequencies until the response is steady."""
+    def _cycle(self, frequencies: list[float]) -> tuple[cyclic.CyclicTest, dict[str, Any]]:
+        """Cycle at these frequencies until the response is steady; the record and its results."""
         p = self.parameters
         longest = p["dt_safety"] * scene.stable_step(self.sample)
         test = cyclic.CyclicTest(self.sample, frequencies, peak_to_peak(p), longest)
         cyclic.start(test)
-        before, places = scene.energies(), grain_centres(len(self.sample.radii))
+        before = self.finished["energies"]
+        places = grain_centres(len(self.sample.radii))
         name = " + ".join(f"{frequency:g}" for frequency in frequencies) + " Hz"
         progress = Progress(name, p["quiet"])
         for cycle in range(p["most_cycles"] + 1):
@@ -197,8 +227,7 @@ class TriaxialRun:
         progress.close()
         cyclic.stop()
         outside = self._outside_work(places)
-        self.finished["tests"].append(test_results(test, p, before, scene.energies(), outside))
-        write_loops(test, self.folder, len(self.finished["tests"]))
+        return test, test_results(test, p, before, scene.energies(), outside)
 
     def _outside_work(self, places: np.ndarray) -> float:
         """Work of membrane and weight on the grains since they stood at `places`, shape (n, 3) [J]."""
@@ -211,7 +240,11 @@ class TriaxialRun:
         return work
 
     def _checkpoint(self) -> None:
-        """Save the state after a finished stretch; the old one is replaced only once the new one is whole."""
+        """Save the state after a finished stretch; the old one is replaced only once the new one is whole.
+
+        Energies are kept beside it: those of contacts cannot be asked for in a scene that was just loaded.
+        """
+        self.finished["energies"] = scene.energies()
         forces = np.array([O.forces.permF(i) for i in range(len(self.sample.radii))])
         np.save(self.folder / FORCES, forces)
         partial = self.folder / f"partial-{STATE}"
