@@ -15,8 +15,10 @@ from grainfall.calibrate import (
     profile,
     read_spectra,
 )
+from grainfall.calibrate.run import calibrate_friction
 from grainfall.calibrate.spectra import spectra_of
 from grainfall.calibrate.triaxial_model import sand
+from grainfall.options import OptionError
 
 CONDITIONS = [(w, f) for w in (0.0, 0.023, 0.05) for f in (10.0, 30.0, 60.0, 100.0, 150.0)]
 TRUTH = {"friction": 0.35, "restitution": 0.7}
@@ -179,6 +181,54 @@ def test_parameters_become_options_of_the_scenario():
     }
     with pytest.raises(ValueError, match="mu0 without muInf, loadScale"):
         sand({"mu0": 0.8}, 0.0)
+
+
+def test_the_scenario_writes_what_it_found(tmp_path, monkeypatch):
+    asked = []
+
+    def stand_in(folder, **options):
+        asked.append(options)
+        return contact_model
+
+    monkeypatch.setattr("grainfall.calibrate.run.triaxial_model", stand_in)
+    data = data_of(TRUTH)
+    rows = zip(data.moisture, data.frequency, data.stiffness, data.damping)
+    table = tmp_path / "measured.csv"
+    table.write_text("\n".join([HEADER, *(",".join(map(repr, map(float, r))) for r in rows)]))
+    found = calibrate_friction(
+        measured=str(table),
+        fit="friction=0.8:0.05:2,restitution=0.9:0.1:0.99",
+        output=str(tmp_path / "out"),
+        confinement=5e3,
+        quiet=True,
+    )
+    assert found.values["friction"] == pytest.approx(TRUTH["friction"], rel=2e-3)
+    assert asked == [{"confinement": 5e3}]
+    written = json.loads((tmp_path / "out" / "calibration.json").read_text())
+    assert written["values"] == found.values and written["unseen"] == []
+
+
+BAD_OPTIONS = [
+    ({}, "--measured: a table"),
+    ({"fit": "friction=0.5"}, "'friction=0.5' must be NAME=START:LOW:HIGH"),
+    ({"fit": "friction=0.5:1:2"}, "start = 0.5 must lie in"),
+    ({"fit": "frction=0.5:0.1:1"}, "'frction=0.5:0.1:1': must be NAME=..., NAME one of friction"),
+    ({"fit": "preset=1:0.5:2"}, "NAME one of friction"),
+    ({"fit": "friction=a:b:c"}, "'a' must be a number"),
+    ({"fix": "muInf=x"}, "'x' must be a number"),
+    ({"confinement": -1}, "--confinement = -1"),
+    ({"frequencies": "10"}, "unknown parameter 'frequencies'"),
+]
+
+
+@pytest.mark.parametrize(("options", "message"), BAD_OPTIONS)
+def test_a_calibration_that_makes_no_sense_is_refused_before_it_runs(options, message, tmp_path):
+    table = tmp_path / "measured.csv"
+    table.write_text(f"{HEADER}\n0,10,1e6,5\n")
+    given = {"measured": str(table)} if options else {}
+    with pytest.raises(OptionError, match=message):
+        calibrate_friction(**given, **options, output=str(tmp_path / "out"))
+    assert not (tmp_path / "out").exists()
 
 
 HEADER = "moisture,frequency_Hz,stiffness_N_per_m,damping_N_s_per_m"
