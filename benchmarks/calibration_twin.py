@@ -29,7 +29,7 @@ OPTIONS = {
     "least_cycles": 2,
     "most_cycles": 3,
 }
-FREQUENCIES = (60.0, 150.0)
+FREQUENCIES = (75.0, 150.0)
 
 
 def main() -> None:

@@ -92,8 +92,8 @@ LOADING = (
     Option(
         "preload_friction",
         None,
-        "constant friction during preloading, so that runs of different friction start from the same state "
-        "(default: the sand's own)",
+        "constant friction during preloading, with restitution 0.8, so that runs of different friction, damping or "
+        "moisture start from the same state (default: the sand's own)",
         "-",
         low=0,
         high=5,

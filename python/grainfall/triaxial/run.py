@@ -27,7 +27,7 @@ from grainfall.triaxial import cyclic, scene
 from grainfall.triaxial.loops import write_loops
 from grainfall.triaxial.parameters import TABLE, frequency_list, peak_to_peak, softness
 from grainfall.triaxial.preloading import preload
-from grainfall.triaxial.preparation import read_state
+from grainfall.triaxial.preparation import RESTITUTION, read_state
 from grainfall.triaxial.samples import SampleSpec, load_sample, obtain_sample, save_sample
 from grainfall.triaxial.summary import make_summary, print_summary, test_results
 
@@ -158,18 +158,15 @@ class TriaxialRun:
         progress.close()
         self.clock.lap("sample preparation")
         sand = Sand.of(p)
-        self._build(
-            sand
-            if p["preload_friction"] is None
-            else replace(sand, friction=str(p["preload_friction"]))
-        )
+        self._build(self._preloading_sand(sand))
         progress = Progress("preloading", p["quiet"])
         self.finished["preload"] = preload(self.sample, p, progress.update)
-        progress.close()
         if p["preload_friction"] is not None:
             self._change_friction(sand)
-        for warning in check_scene():
-            print(f"warning: {warning}", file=sys.stderr)
+        if not p["quiet"]:
+            for warning in check_scene():
+                print(f"warning: {warning}", file=sys.stderr)
+        progress.close()
         O.engines = [*O.engines[:3], cyclic.actuator(), *O.engines[3:]]
         O.trackEnergy = not p["no_energy"]
         self.clock.lap("preloading")
@@ -179,6 +176,13 @@ class TriaxialRun:
         save_sample(self.sample, self.folder / SAMPLE)
         with undisturbed():
             self._checkpoint()
+
+    def _preloading_sand(self, sand: Sand) -> Sand:
+        """The sand as it is preloaded: as it is, or the same in all runs."""
+        friction = self.parameters["preload_friction"]
+        if friction is None:
+            return sand
+        return replace(sand, friction=str(friction), moisture_factor="", restitution=RESTITUTION)
 
     def _build(self, sand: Sand) -> None:
         """The sample in an empty scene, of this sand."""
