@@ -17,7 +17,7 @@ from pathlib import Path
 
 CONTACTS, STEPS = 1000, 100
 ALLOWED_RATIO = 1.01
-EFFECTS = "frictionless undamped report energy-book"
+EFFECTS = "frictionless undamped report partial-slip energy-book"
 CURVES = "power-law exponential asperity table mixed-curves"
 
 

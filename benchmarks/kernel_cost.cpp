@@ -27,15 +27,16 @@ namespace {
 
 using namespace grainfall::laws;
 
-template <class Friction>
+template <class Friction, class Memory>
 struct Contact {
     ContactGeometry geometry;
     ContactParameters parameters;
-    ContactMemory memory;
+    Memory memory;
     Friction friction;
 };
 
 struct Handwritten {
+    using Memory = ContactMemory;
     using Curve = friction::Constant;
     using Book = NoEnergy;
 
@@ -84,13 +85,14 @@ struct Handwritten {
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
 struct Composed {
+    using Kernel = HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
+    using Memory = typename Kernel::Memory;
     using Curve = Friction;
     using Book = Energy;
 
     static ContactForce step(const ContactGeometry& geometry, const ContactParameters& parameters,
-                             const Friction& friction, ContactMemory& memory, Energy& book) {
-        return HertzMindlin<Normal, Tangential, Damping, Friction, Energy>::step(geometry, parameters,
-                                                                                 friction, memory, book);
+                             const Friction& friction, Memory& memory, Energy& book) {
+        return Kernel::step(geometry, parameters, friction, memory, book);
     }
 };
 
@@ -102,7 +104,8 @@ struct Checksum {
 
 // Never inlined, so that the counter can switch itself on and off at its entry and exit.
 template <class Law>
-[[gnu::noinline]] Checksum counted_steps(std::vector<Contact<typename Law::Curve>>& contacts, int steps) {
+[[gnu::noinline]] Checksum
+counted_steps(std::vector<Contact<typename Law::Curve, typename Law::Memory>>& contacts, int steps) {
     typename Law::Book book;
     Checksum checksum;
     for (int i = 0; i < steps; ++i) {
@@ -119,13 +122,14 @@ template <class Law>
     return checksum;
 }
 
-template <class Friction>
-std::vector<Contact<Friction>> some_contacts(std::size_t count, const Friction& friction) {
+template <class Friction, class Memory>
+std::vector<Contact<Friction, Memory>> some_contacts(std::size_t count, const Friction& friction) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const auto vector = [&] { return Vector(uniform(random), uniform(random), uniform(random)); };
     const ContactParameters parameters = contact_parameters(3.6e10, 8e9, 1.25e-3, 3e-5, 0.1);
-    std::vector<Contact<Friction>> contacts(count, Contact<Friction>{{}, parameters, {}, friction});
+    std::vector<Contact<Friction, Memory>> contacts(count,
+                                                    Contact<Friction, Memory>{{}, parameters, {}, friction});
     for (auto& contact : contacts) {
         ContactGeometry& g = contact.geometry;
         g.time_step = 1e-7;
@@ -141,7 +145,7 @@ std::vector<Contact<Friction>> some_contacts(std::size_t count, const Friction& 
 
 template <class Law>
 Checksum run(const typename Law::Curve& friction, std::size_t count, int steps) {
-    auto contacts = some_contacts(count, friction);
+    auto contacts = some_contacts<typename Law::Curve, typename Law::Memory>(count, friction);
     return counted_steps<Law>(contacts, steps);
 }
 
@@ -166,6 +170,8 @@ const std::map<std::string, Runner>& laws() {
         {"undamped", runner<Composed<Hertz, IncrementalTangential, NoDamping, Constant, NoEnergy>>(half)},
         {"report",
          runner<Composed<ReportNormal, ReportTangential, RepulsiveDashpot, Constant, NoEnergy>>(half)},
+        {"partial-slip",
+         runner<Composed<Hertz, PartialSlipTangential, RepulsiveDashpot, Constant, NoEnergy>>(half)},
         {"energy-book", runner<Usual<Constant, DissipationBook>>(half)},
         {"power-law", runner<Usual<PowerLaw>>(cole_power_law())},
         {"exponential", runner<Usual<Exponential>>(cole_exponential())},

@@ -6,9 +6,10 @@ usage: PYTHONPATH=build/python yade -n -x [-j2] benchmarks/law_cost.py [--grains
                                     [--steps 60] [--output benchmarks/results/law_cost.json]
 
 One packing is settled once. In each round every law in turn gets that packing back (positions, no
-velocities, no contacts), makes its contacts, and is timed. Ratios to the stock law are formed within
-a round; the median over the rounds is given, with the quartiles. The step is measured in processor
-time, which other programs on the machine disturb least; the interaction loop by YADE's own timers.
+velocities, no contacts), makes its contacts, and is timed. Ratios to the stock law, and of partial
+slip to the incremental law, are formed within a round; the median over the rounds is given, with
+the quartiles. The step is measured in processor time, which other programs on the machine disturb
+least; the interaction loop by YADE's own timers.
 """
 from __future__ import annotations
 
@@ -61,7 +62,11 @@ def ours(**law) -> Functors:
     return [Ip2_GrainMat_GrainMat_GrainPhys()], [Law2_ScGeom_GrainPhys_HertzMindlin(**law)]
 
 
-# Name, functors, attributes of the material, name of the stock law that it is compared with.
+def partial_slip() -> Functors:
+    return ours(tangentialLaw="mindlin-deresiewicz")
+
+
+# Name, functors, attributes of the material, name of the law that it is compared with.
 LAWS: list[tuple[str, Callable[[], Functors], dict, str]] = [
     ("stock, elastic", stock, {}, "stock, elastic"),
     ("ours, elastic", ours, {}, "stock, elastic"),
@@ -72,6 +77,13 @@ LAWS: list[tuple[str, Callable[[], Functors], dict, str]] = [
         "stock, damped",
     ),
     ("ours, damped", ours, {"restitution": RESTITUTION}, "stock, damped"),
+    ("ours, elastic, partial slip", partial_slip, {}, "ours, elastic"),
+    (
+        "ours, damped, partial slip",
+        partial_slip,
+        {"restitution": RESTITUTION},
+        "ours, damped",
+    ),
     (
         "ours, damped, power law of the load",
         ours,

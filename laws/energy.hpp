@@ -44,13 +44,23 @@ struct DissipationBook {
             friction += 0.5 * (rescaled + after).dot(trial - after) / stiffness;
     }
 
+    // A contact that slips from its rim inwards: elastic shear force (turned with the contact) and energy
+    // before and after the step. What is not stored is slip.
+    void add_partial_slip(const Vector& before, double energy_before, const Vector& after,
+                          double energy_after, const Vector& increment) {
+        friction -= 0.5 * (before + after).dot(increment) + (energy_after - energy_before);
+    }
+
     void add_shear_viscous(const Vector& viscous_force, const Vector& increment) {
         viscous -= 0.5 * (shear_viscous_force + viscous_force).dot(increment);
         shear_viscous_force = viscous_force;
     }
 
     // A contact that opens drops what its tangential spring still held.
-    void add_opening(const ContactMemory& memory) { rescaling += shear_elastic_energy(memory); }
+    template <class Memory>
+    void add_opening(const Memory& memory) {
+        rescaling += shear_elastic_energy(memory);
+    }
 };
 
 } // namespace grainfall::laws

@@ -2,7 +2,8 @@
 // One step of the contact law: Eq 3 (or Hertz), Eq 4-6 and the dashpots, put together from policies.
 //
 //   Normal      Hertz | ReportNormal
-//   Tangential  NoTangential | IncrementalTangential | SecantTangential | ReportTangential
+//   Tangential  NoTangential | IncrementalTangential | PartialSlipTangential | SecantTangential |
+//               ReportTangential
 //   Damping     NoDamping | RepulsiveDashpot | AttractiveDashpot
 //   Friction    one of laws/friction/
 //   Energy      NoEnergy | DissipationBook
@@ -16,17 +17,22 @@
 #include <laws/damping.hpp>
 #include <laws/energy.hpp>
 #include <laws/normal_force.hpp>
+#include <laws/partial_slip.hpp>
 #include <laws/tangential_force.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace grainfall::laws {
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy = NoEnergy>
 struct HertzMindlin {
+    static constexpr bool slips_partially = std::is_same_v<Tangential, PartialSlipTangential>;
+    using Memory = std::conditional_t<slips_partially, PartialSlipMemory, ContactMemory>;
+
     static ContactForce step(const ContactGeometry& geometry, const ContactParameters& parameters,
-                             const Friction& friction, ContactMemory& memory, Energy& energy) {
+                             const Friction& friction, Memory& memory, Energy& energy) {
         const double root_overlap = std::sqrt(geometry.overlap);
         ContactForce force;
         force.normal_stiffness = Normal::stiffness(parameters.normal_coefficient, root_overlap);
@@ -42,7 +48,9 @@ struct HertzMindlin {
                 energy.add_normal(force.normal - elastic, geometry.normal_velocity * geometry.time_step);
             }
         }
-        if constexpr (Tangential::active) {
+        if constexpr (slips_partially) {
+            partial_slip(geometry, parameters, friction, root_overlap, quarter_power, memory, energy, force);
+        } else if constexpr (Tangential::active) {
             shear(geometry, parameters, friction, root_overlap, quarter_power, memory, energy, force);
         }
         return force;
@@ -88,6 +96,47 @@ private:
         }
         memory.shear_force = elastic;
         memory.shear_stiffness = stiffness;
+    }
+
+    static void partial_slip(const ContactGeometry& geometry, const ContactParameters& parameters,
+                             const Friction& friction, double root_overlap, double quarter_power,
+                             PartialSlipMemory& memory, Energy& energy, ContactForce& force) {
+        const double coefficient = shear_stiffness<Normal, Tangential>(parameters.shear_coefficient, 1.0);
+        force.shear_stiffness = coefficient * root_overlap;
+        const double load = std::max(0.0, force.normal);
+        const double limit = load > 0 ? friction.coefficient(load) * load : 0;
+        const double limit_slope = limit > 0 ? 1.5 * limit / (force.shear_stiffness * geometry.overlap) : 0;
+
+        carry_slip_history(memory, geometry, coefficient, limit_slope);
+        SlipHistory& history = memory.history;
+        const Vector across = geometry.normal.cross(history.axis);
+        Vector before = Vector::Zero();
+        double energy_before = 0;
+        if constexpr (Energy::active) {
+            before = rotated_with_contact(memory.shear_force, geometry);
+            energy_before = shear_elastic_energy(history, coefficient);
+        }
+        const Planar shift(-history.axis.dot(geometry.shear_increment),
+                           -across.dot(geometry.shear_increment));
+        advance_slip_history(history, root_overlap, shift, limit_slope);
+        const Planar sum = coefficient * history.integral();
+        Vector elastic = sum.x() * history.axis + sum.y() * across;
+
+        Vector viscous = Vector::Zero();
+        if constexpr (Damping::active) {
+            constexpr double factor = Tangential::square_root_of_factor * Normal::sixth_root_of_factor;
+            viscous = (-factor * parameters.shear_damping * quarter_power / geometry.time_step) *
+                      geometry.shear_increment;
+        }
+        force.sliding = cap_shear(friction, load, viscous, elastic, force.shear) || history.slides;
+        if constexpr (Energy::active) {
+            energy.add_shear_viscous(force.shear - elastic, geometry.shear_increment);
+            energy.add_partial_slip(before, energy_before, elastic,
+                                    shear_elastic_energy(history, coefficient), geometry.shear_increment);
+        }
+        memory.shear_force = elastic;
+        memory.shear_stiffness = force.shear_stiffness;
+        history.force_squared = elastic.squaredNorm();
     }
 };
 

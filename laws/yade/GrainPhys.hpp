@@ -4,6 +4,7 @@
 
 #include <laws/yade/ContactClass.hpp>
 #include <laws/yade/FrictionCurve.hpp>
+#include <laws/yade/PartialSlip.hpp>
 
 #include <pkg/dem/FrictPhys.hpp>
 
@@ -41,6 +42,7 @@ public:
         ((shared_ptr<FrictionCurve>, friction, , , "friction curve of this pair of materials; None where friction is constant."))
         ((Real, moisture, 0, , "gravimetric moisture at which the curve is read [-]."))
         ((Real, loadScale, 1, , "square of the coarsening [-]: the curve is read at the normal force divided by this number."))
+        ((shared_ptr<PartialSlip>, partialSlip, , , "slip history under tangentialLaw='mindlin-deresiewicz'; None until that law acts."))
         ((bool, isSliding, false, , "did the contact slide in the last step?"))
         ((int, contactClass, 0, Attr::readonly, "number of the kernel that serves this contact."))
         ,

@@ -27,10 +27,10 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::validate() const {
     using grainfall::laws::reject;
     if (normalLaw != "hertz" && normalLaw != "report")
         reject("Law2_ScGeom_GrainPhys_HertzMindlin.normalLaw", "'" + normalLaw + "'", "'hertz' or 'report'");
-    if (tangentialLaw != "incremental" && tangentialLaw != "report" && tangentialLaw != "secant" &&
-        tangentialLaw != "none")
+    if (tangentialLaw != "incremental" && tangentialLaw != "mindlin-deresiewicz" &&
+        tangentialLaw != "report" && tangentialLaw != "secant" && tangentialLaw != "none")
         reject("Law2_ScGeom_GrainPhys_HertzMindlin.tangentialLaw", "'" + tangentialLaw + "'",
-               "'incremental', 'report', 'secant' or 'none'");
+               "'incremental', 'mindlin-deresiewicz', 'report', 'secant' or 'none'");
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::postLoad(Law2_ScGeom_GrainPhys_HertzMindlin&) {
@@ -39,10 +39,11 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::postLoad(Law2_ScGeom_GrainPhys_HertzMin
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
-    const KernelTables& tables = tangentialLaw == "report"   ? report_kernels()
-                                 : tangentialLaw == "secant" ? secant_kernels()
-                                 : tangentialLaw == "none"   ? frictionless_kernels()
-                                                             : incremental_kernels();
+    const KernelTables& tables = tangentialLaw == "mindlin-deresiewicz" ? partial_slip_kernels()
+                                 : tangentialLaw == "report"            ? report_kernels()
+                                 : tangentialLaw == "secant"            ? secant_kernels()
+                                 : tangentialLaw == "none"              ? frictionless_kernels()
+                                                                        : incremental_kernels();
     const KernelTables::Pair& pair = normalLaw == "report" ? tables.report : tables.hertz;
     kernels_ = {&pair.plain, &pair.booking};
 }

@@ -45,7 +45,7 @@ public:
         "tells what runs and why. With O.trackEnergy the dissipated energies are booked into O.energy as grainFriction, grainViscous and "
         "grainRescaling.",
         ((std::string, normalLaw, "hertz", , "'hertz': 4/3 E* sqrt(R*) overlap^1.5; 'report': MR-2629 Eq 3 as printed, half of that."))
-        ((std::string, tangentialLaw, "incremental", , "'incremental': Mindlin's stiffness, shear force rescaled when the stiffness falls, so that no energy is made; 'report': MR-2629 Eq 4-5 as printed; 'secant': stiffness times total tangential displacement (the law of Chung & Ooi's reference codes; makes energy on normal loading); 'none': frictionless."))
+        ((std::string, tangentialLaw, "incremental", , "'incremental': Mindlin's stiffness, shear force rescaled when the stiffness falls, so that no energy is made; 'mindlin-deresiewicz': partial slip, from the rim of the contact inwards (Mindlin & Deresiewicz 1953, by the method of Popov & Hess 2015); 'report': MR-2629 Eq 4-5 as printed; 'secant': stiffness times total tangential displacement (the law of Chung & Ooi's reference codes; makes energy on normal loading); 'none': frictionless."))
         ((int, frictionIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, viscousIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, rescalingIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))

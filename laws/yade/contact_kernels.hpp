@@ -26,6 +26,7 @@ struct KernelTables {
     Pair report;
 };
 const KernelTables& incremental_kernels();
+const KernelTables& partial_slip_kernels();
 const KernelTables& secant_kernels();
 const KernelTables& report_kernels();
 const KernelTables& frictionless_kernels();
@@ -42,6 +43,25 @@ void recall_viscous_forces(const GrainPhys& phys, const Vector3r& normal, gl::Di
     const Real elastic = Normal::force(phys.normalCoefficient, root_overlap * root_overlap, root_overlap);
     book.normal_viscous_force = phys.normalForce.dot(normal) - elastic;
     book.shear_viscous_force = phys.shearForce - phys.shearElastic;
+}
+
+inline void recall(const GrainPhys& phys, gl::ContactMemory& memory) {
+    memory.shear_force = phys.shearElastic;
+    memory.shear_stiffness = phys.ks;
+}
+inline void recall(const GrainPhys& phys, gl::PartialSlipMemory& memory) {
+    recall(phys, static_cast<gl::ContactMemory&>(memory));
+    if (phys.partialSlip)
+        phys.partialSlip->recall(memory.history);
+}
+inline void keep(GrainPhys& phys, const gl::ContactMemory& memory) {
+    phys.shearElastic = memory.shear_force;
+}
+inline void keep(GrainPhys& phys, const gl::PartialSlipMemory& memory) {
+    keep(phys, static_cast<const gl::ContactMemory&>(memory));
+    if (!phys.partialSlip)
+        phys.partialSlip = shared_ptr<PartialSlip>(new PartialSlip);
+    phys.partialSlip->keep(memory.history);
 }
 
 inline void apply_force(Law& law, const Vector3r& force_on_2, const ScGeom& geom, const Interaction& contact,
@@ -69,10 +89,13 @@ decltype(auto) friction_of(const GrainPhys& phys) {
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
 bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
+    using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
     const Scene& scene = *law.scene;
     if (geom.penetrationDepth < 0) {
         if constexpr (Energy::active && Tangential::active) {
-            law.book(0, 0, gl::shear_elastic_energy(phys.shearElastic, phys.ks));
+            typename ContactLaw::Memory memory;
+            recall(phys, memory);
+            law.book(0, 0, gl::shear_elastic_energy(memory));
         }
         return false;
     }
@@ -99,13 +122,14 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
 
     const gl::ContactParameters parameters{phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
                                            phys.shearDamping};
-    gl::ContactMemory memory{phys.shearElastic, phys.ks};
+    typename ContactLaw::Memory memory;
+    recall(phys, memory);
 
     Energy book;
     if constexpr (Energy::active)
         recall_viscous_forces<Normal>(phys, geom.normal, book);
-    const gl::ContactForce force = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>::step(
-        geometry, parameters, friction_of<Friction>(phys), memory, book);
+    const gl::ContactForce force =
+        ContactLaw::step(geometry, parameters, friction_of<Friction>(phys), memory, book);
     if constexpr (Energy::active)
         law.book(book.friction, book.viscous, book.rescaling);
 
@@ -114,7 +138,7 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     phys.normalForce = force.normal * geom.normal;
     if constexpr (Tangential::active) {
         phys.shearForce = force.shear;
-        phys.shearElastic = memory.shear_force;
+        keep(phys, memory);
         phys.isSliding = force.sliding;
     }
     apply_force(law, phys.normalForce + phys.shearForce, geom, contact, state1, state2, shift2);

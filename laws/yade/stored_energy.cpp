@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <laws/yade/stored_energy.hpp>
 
-#include <laws/tangential_force.hpp>
+#include <laws/partial_slip.hpp>
 #include <laws/yade/GrainPhys.hpp>
 
 #include <core/Interaction.hpp>
@@ -22,7 +22,12 @@ StoredEnergy stored_energy(const Interaction& contact) {
     // F = 2/3 kn d and E = 2/5 F d for a force that goes with d^1.5, whatever its coefficient.
     const Real overlap = geom->penetrationDepth;
     energy.normal = 4.0 / 15.0 * phys->kn * overlap * overlap;
-    energy.shear = grainfall::laws::shear_elastic_energy(phys->shearElastic, phys->ks);
+    grainfall::laws::PartialSlipMemory memory;
+    memory.shear_force = phys->shearElastic;
+    memory.shear_stiffness = phys->ks;
+    if (phys->partialSlip)
+        phys->partialSlip->recall(memory.history);
+    energy.shear = grainfall::laws::shear_elastic_energy(memory);
     return energy;
 }
 

@@ -78,7 +78,7 @@ LAWS = (
         "incremental",
         "tangential force of the contact law",
         kind=str,
-        choices=("incremental", "report", "secant", "none"),
+        choices=("incremental", "mindlin-deresiewicz", "report", "secant", "none"),
     ),
 )
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """YADE script: a damped, frictional pack settles; writes its positions and velocities as JSON.
 
-usage: yade -n -x [-j2] friction_pack.py <output.json>
+usage: yade -n -x [-j2] friction_pack.py <output.json> <tangential law>
 """
 import json
 import math
@@ -50,7 +50,7 @@ def build() -> None:
         InteractionLoop(
             [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
             [Ip2_GrainMat_GrainMat_GrainPhys()],
-            [Law2_ScGeom_GrainPhys_HertzMindlin()],
+            [Law2_ScGeom_GrainPhys_HertzMindlin(tangentialLaw=sys.argv[2])],
         ),
         NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
     ]

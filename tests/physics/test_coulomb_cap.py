@@ -55,7 +55,9 @@ def largest_force_ratio(law, restitution: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("restitution", [0.3, 0.6, 0.9, 1.0])
-@pytest.mark.parametrize("tangential_law", ["incremental", "report", "secant"])
+@pytest.mark.parametrize(
+    "tangential_law", ["incremental", "mindlin-deresiewicz", "report", "secant"]
+)
 def test_spring_and_dashpot_together_stay_below_friction_times_normal_force(
     tangential_law, restitution
 ):

@@ -57,7 +57,9 @@ def oblique_collision(restitution: float, degrees: float, tangential_law: str) -
     return before - kinetic_energy()
 
 
-@pytest.mark.parametrize("tangential_law", ["incremental", "report", "secant", "none"])
+@pytest.mark.parametrize(
+    "tangential_law", ["incremental", "mindlin-deresiewicz", "report", "secant", "none"]
+)
 @pytest.mark.parametrize("restitution", [0.5, 1.0])
 @pytest.mark.parametrize("degrees", [5, 30, 60])
 def test_kinetic_energy_lost_in_collisions_is_the_energy_booked(
@@ -71,17 +73,19 @@ def test_kinetic_energy_lost_in_collisions_is_the_energy_booked(
     assert sum(booked().values()) == pytest.approx(lost, abs=1e-4 * before)
 
 
+@pytest.mark.parametrize("tangential_law", ["incremental", "mindlin-deresiewicz"])
 @pytest.mark.parametrize("restitution", [0.5, 1.0])
 @pytest.mark.parametrize("degrees", [5, 30, 60])
-def test_default_law_books_no_gain(restitution, degrees):
-    oblique_collision(restitution, degrees, "incremental")
+def test_law_meant_for_predictions_books_no_gain(tangential_law, restitution, degrees):
+    oblique_collision(restitution, degrees, tangential_law)
     energies = booked()
     assert all(value >= 0 for value in energies.values())
     assert energies["grainFriction"] > 0
     assert (energies["grainViscous"] > 0) == (restitution < 1)
 
 
-def test_settling_pack_keeps_its_books():
+@pytest.mark.parametrize("tangential_law", ["incremental", "mindlin-deresiewicz"])
+def test_settling_pack_keeps_its_books(tangential_law):
     """Potential energy of falling grains = kinetic + elastic + booked, as they settle."""
     O.trackEnergy = True
     material = cs.Solid(1e8, 0.25, 2500).material
@@ -95,7 +99,7 @@ def test_settling_pack_keeps_its_books():
         for position in (-1.1 * RADIUS, (count - 1) * pitch + 1.1 * RADIUS):
             O.bodies.append(utils.wall(position, axis=axis, sense=0))
     O.bodies.append(utils.wall(-1.1 * RADIUS, axis=2, sense=0))
-    law = cs.grain_law()
+    law = cs.grain_law(tangentialLaw=tangential_law)
     gravity = 9.81
     cs.set_engines(law, gravity=(0, 0, -gravity))
     O.dt = 5e-6

@@ -43,7 +43,7 @@ def normal_and_shear(lower: int, upper: int) -> tuple[np.ndarray, np.ndarray]:
     return normal, force
 
 
-def turn(lower: int, upper: int, axis: np.ndarray, angle: float) -> None:
+def turn(lower: int, upper: int, axis: np.ndarray, angle: float, **law) -> None:
     """Turn the pair about `axis`, a unit vector square to its branch, by `angle` [rad] in STEPS
     steps.
 
@@ -67,7 +67,7 @@ def turn(lower: int, upper: int, axis: np.ndarray, angle: float) -> None:
             state.vel = tuple(chord / O.dt)
             state.angVel = tuple(axis * math.sin(step) / O.dt)
 
-    cs.set_engines(cs.grain_law(), lead)
+    cs.set_engines(cs.grain_law(**law), lead)
     O.run(STEPS + 1, True)
 
 

@@ -95,17 +95,18 @@ def test_material_comes_back_with_its_friction(name, tmp_path):
     assert (material.restitution, material.gravimetricMoisture) == (0.7, 0.04)
 
 
-def run_pack(threads: int, output: Path) -> dict:
+def run_pack(threads: int, tangential_law: str, output: Path) -> dict:
     script = Path(__file__).with_name("friction_pack.py")
-    command = ["yade", "-n", "-x", f"-j{threads}", str(script), str(output)]
+    command = ["yade", "-n", "-x", f"-j{threads}", str(script), str(output), tangential_law]
     # Threads that wait without spinning: else two of them crawl where a core is shared.
     environment = {**os.environ, "OMP_WAIT_POLICY": "passive"}
     subprocess.run(command, check=True, capture_output=True, timeout=170, env=environment)
     return json.loads(output.read_text(encoding="utf-8"))
 
 
-def test_two_threads_settle_a_frictional_pack_as_one_does(tmp_path):
-    one, two = (run_pack(n, tmp_path / f"{n}.json") for n in (1, 2))
+@pytest.mark.parametrize("tangential_law", ["incremental", "mindlin-deresiewicz"])
+def test_two_threads_settle_a_frictional_pack_as_one_does(tangential_law, tmp_path):
+    one, two = (run_pack(n, tangential_law, tmp_path / f"{n}.json") for n in (1, 2))
     assert (one["threads"], two["threads"]) == (1, 2)
     assert one["contacts"] > 300
     size = np.ptp(np.array(one["position"]), axis=0).max()

@@ -124,10 +124,11 @@ def random_closed_paths(count: int, legs: int, seed: int) -> list[list[Leg]]:
     return paths
 
 
+@pytest.mark.parametrize("tangential_law", ["incremental", "mindlin-deresiewicz"])
 @pytest.mark.parametrize("friction", [0.02, 0.1, 10.0], ids=["slides", "slides at times", "sticks"])
-def test_no_closed_path_of_the_default_spring_gives_work(friction):
+def test_no_closed_path_gives_work(friction, tangential_law):
     paths = random_closed_paths(count=24, legs=8, seed=1)
-    work = shear_work(cs.grain_law(), paths, friction)
+    work = shear_work(cs.grain_law(tangentialLaw=tangential_law), paths, friction)
     scale = 0.5 * stiffness(HEAVY) * SHEAR**2
     # A leg that presses and shears at once is cut into 200 steps; each books its spring to second
     # order.
@@ -171,8 +172,10 @@ def energy_after_impact(law, degrees: Sequence[float], friction: float) -> np.nd
     )
 
 
+@pytest.mark.parametrize("tangential_law", ["incremental", "mindlin-deresiewicz"])
 @pytest.mark.parametrize("friction", [0.05, 0.3, 1.0, 3.0])
-def test_oblique_and_grazing_impact_gain_no_energy(friction):
+def test_oblique_and_grazing_impact_gain_no_energy(friction, tangential_law):
     degrees = (2, 5, 10, 20, 30, 40, 50, 60, 70, 80, 85, 88)
     # 500 steps a collision: leapfrog errs by less than 1e-6.
-    assert np.all(energy_after_impact(cs.grain_law(), degrees, friction) < 1 + 1e-6)
+    law = cs.grain_law(tangentialLaw=tangential_law)
+    assert np.all(energy_after_impact(law, degrees, friction) < 1 + 1e-6)

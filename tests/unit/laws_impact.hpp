@@ -75,7 +75,7 @@ void oblique_impact(Oblique& ball, const laws::ContactParameters& parameters, co
     laws::ContactGeometry geometry;
     geometry.time_step = time_step;
     geometry.normal = laws::Vector::UnitZ();
-    laws::ContactMemory memory;
+    typename Law::Memory memory;
     while (ball.overlap >= 0) {
         const double lever = ball.radius - ball.overlap;
         geometry.overlap = ball.overlap;
