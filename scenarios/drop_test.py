@@ -7,12 +7,12 @@ Under yade-batch the columns of the parameter table are the options, with unders
 """
 
 import os
-import re
 import sys
 
-from yade import O, utils
+from yade import utils
 
 import grainfall  # noqa: F401  registers the classes
+from grainfall.batch import batch_row
 from grainfall.drop import OptionError, drop_test
 from grainfall.drop.parameters import TABLE
 
@@ -22,24 +22,15 @@ EPILOG = (
 )
 
 
-def batch_row() -> dict[str, object]:
-    """The row of the batch's table that this process runs; each row gets its own folder."""
-    from yade import params
-
-    names = {name: None for name in TABLE.by_name}
-    utils.readParamsFromTable(noTableOk=False, **names)
-    row = {name: getattr(params.table, name) for name in names}
-    given = {name: value for name, value in row.items() if value is not None}
-    row_name = re.sub(r"[^\w.=-]+", "_", str(O.tags["description"])).strip("_")
-    given.setdefault("output", os.path.join("results", row_name or O.tags["id"]))
-    return given
-
-
 def main() -> int:
     """Read options, run, report; the exit code says how it went."""
     parser = TABLE.parser(__doc__.splitlines()[0], EPILOG)
     try:
-        given = batch_row() if utils.runningInBatch() else vars(parser.parse_args(sys.argv[1:]))
+        given = (
+            batch_row(TABLE.by_name)
+            if utils.runningInBatch()
+            else vars(parser.parse_args(sys.argv[1:]))
+        )
         summary = drop_test(**given)
     except (OptionError, ValueError) as error:
         print(f"drop_test.py: error: {error}", file=sys.stderr)

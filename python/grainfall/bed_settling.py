@@ -27,10 +27,10 @@ from yade import O, Vector3, utils
 
 from grainfall.bed_scene import add_bed, grain_centres, read_contacts
 from grainfall.beds import Bed, BedSpec, Progress
+from grainfall.constants import GRAVITY
 from grainfall.contacts import contact_loop, rayleigh_step
 from grainfall.packings import Box, grain_radii, random_packing, solid_fraction_in
 
-GRAVITY = 9.81
 KINETIC_LIMIT = 2e-4
 UNBALANCED_LIMIT = 0.01
 DAMPING = 0.4

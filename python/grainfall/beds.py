@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -18,6 +17,7 @@ import h5py
 import numpy as np
 
 from grainfall.contacts import Sand
+from grainfall.store import cache_folder, written_whole
 
 _FORMAT = 1
 
@@ -113,7 +113,7 @@ def obtain_bed(
     name : str
         Name to keep it under; '' for the hash of the spec.
     """
-    path = cache_folder(cache) / f"{name or spec.key()}.h5"
+    path = cache_folder("beds", cache) / f"{name or spec.key()}.h5"
     if path.exists():
         bed = load_bed(path)
         if bed.spec != spec:
@@ -132,14 +132,6 @@ def obtain_bed(
     return load_bed(path), False
 
 
-def cache_folder(cache: Path | str = "") -> Path:
-    """Folder of prepared beds: as given, else under $XDG_CACHE_HOME or ~/.cache."""
-    if cache:
-        return Path(cache).expanduser()
-    root = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
-    return Path(root).expanduser() / "grainfall" / "beds"
-
-
 _ARRAYS = {
     "centres": "m",
     "radii": "m",
@@ -150,16 +142,13 @@ _ARRAYS = {
 
 def save_bed(bed: Bed, path: Path) -> None:
     """Write a bed to an HDF5 file, all at once: a reader never meets half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(f".{os.getpid()}.partial")
-    with h5py.File(partial, "w") as file:
+    with written_whole(path) as file:
         for name, unit in _ARRAYS.items():
             file.create_dataset(name, data=getattr(bed, name), compression="gzip")
             file[name].attrs["unit"] = unit
         file.attrs["spec"] = json.dumps(asdict(bed.spec))
         file.attrs["report"] = json.dumps(bed.report)
         file.attrs["format"] = _FORMAT
-    os.replace(partial, path)
 
 
 def load_bed(path: Path) -> Bed:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -82,6 +83,28 @@ class Sand:
         }
         attributes.update(changes)
         return yade.wrapper.GrainMat(**attributes)
+
+    @classmethod
+    def of(cls, parameters: Mapping[str, Any]) -> Sand:
+        """The sand that a scenario's parameters (`grainfall.sand_options`) describe."""
+        p = parameters
+        return cls(
+            density=p["grain_density"],
+            young=p["young"],
+            poisson=p["poisson"],
+            restitution=p["restitution"],
+            friction=p["friction"],
+            moisture=p["moisture"],
+            moisture_factor=p["moisture_factor"],
+            reference_diameter=p["reference_diameter"],
+            normal_law=p["normal_law"],
+            tangential_law=p["tangential_law"],
+            bridges=p["bridges"],
+            bridges_per_grain=p["bridges_per_grain"],
+            surface_tension=p["surface_tension"],
+            contact_angle=p["contact_angle"],
+            liquid_viscosity=p["liquid_viscosity"],
+        )
 
     def as_dict(self) -> dict[str, Any]:
         """Plain values, for hashing and saving."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Random packings of spheres in a box, made without YADE: the raw material of a bed.
+"""Random packings of spheres in a box or a cylinder, made without YADE: the raw material of beds and samples.
 
 A bed let fall from a dilute cloud spends most of its steps on the fall. Here the spheres are thrown at
 random into the volume they are to fill and pushed apart until their overlaps are small; YADE then only
@@ -49,11 +49,73 @@ class Box:
         """Filled volume [m3]."""
         return self.length * self.width * self.depth
 
+    def core_volume(self, layer: float) -> float:
+        """Volume further than `layer` [m] from walls, floor and lid [m3]."""
+        sides = (self.length, self.width, self.depth)
+        return math.prod(max(side - 2 * layer, 0) for side in sides)
+
+    def scatter(self, radii: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+        """Random centres of spheres inside, shape (n, 3) [m]."""
+        margin = radii[:, None]
+        return rng.uniform(self.lower + margin, self.upper - margin)
+
+    def push_inside(self, centres: np.ndarray, radii: np.ndarray) -> None:
+        """Move spheres that cross a wall back inside; changes `centres`, shape (n, 3) [m]."""
+        margin = radii[:, None]
+        np.clip(centres, self.lower + margin, self.upper - margin, out=centres)
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """Inside of an upright cylinder standing on z = 0, its axis on the z axis.
+
+    Parameters
+    ----------
+    diameter, depth : float
+        Inner diameter, and height filled with grains [m].
+    """
+
+    diameter: float
+    depth: float
+
+    @property
+    def volume(self) -> float:
+        """Filled volume [m3]."""
+        return math.pi / 4 * self.diameter**2 * self.depth
+
+    def core_volume(self, layer: float) -> float:
+        """Volume further than `layer` [m] from wall, floor and lid [m3]."""
+        diameter, depth = max(self.diameter - 2 * layer, 0), max(self.depth - 2 * layer, 0)
+        return math.pi / 4 * diameter**2 * depth
+
+    def scatter(self, radii: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+        """Random centres of spheres inside, shape (n, 3) [m]."""
+        count = len(radii)
+        distance = (self.diameter / 2 - radii) * np.sqrt(rng.uniform(0, 1, count))
+        angle = rng.uniform(0, 2 * np.pi, count)
+        height = rng.uniform(radii, self.depth - radii)
+        return np.column_stack((distance * np.cos(angle), distance * np.sin(angle), height))
+
+    def push_inside(self, centres: np.ndarray, radii: np.ndarray) -> None:
+        """Move spheres that cross the wall back inside; changes `centres`, shape (n, 3) [m]."""
+        distance = np.hypot(centres[:, 0], centres[:, 1])
+        allowed = self.diameter / 2 - radii
+        outside = distance > allowed
+        centres[outside, :2] *= (allowed[outside] / distance[outside])[:, None]
+        np.clip(centres[:, 2], radii, self.depth - radii, out=centres[:, 2])
+
+
+Container = Box | Cylinder
+
 
 def grain_radii(
-    box: Box, diameter: float, spread: float, solid_fraction: float, rng: np.random.Generator
+    container: Container,
+    diameter: float,
+    spread: float,
+    solid_fraction: float,
+    rng: np.random.Generator,
 ) -> np.ndarray:
-    """Radii that fill the core of `box` to `solid_fraction`: diameters uniform in diameter*(1 -+ spread).
+    """Radii that fill the core of a container to `solid_fraction`: diameters uniform in diameter*(1 -+ spread).
 
     The count allows for the looser layer beside walls and floor.
 
@@ -64,23 +126,19 @@ def grain_radii(
     """
     mean_volume = math.pi / 6 * diameter**3 * (1 + spread**2)
     layer = WALL_VOID_IN_DIAMETERS * diameter
-    core = (
-        max(box.length - 2 * layer, 0)
-        * max(box.width - 2 * layer, 0)
-        * max(box.depth - 2 * layer, 0)
-    )
+    core = container.core_volume(layer)
     count = max(1, round(solid_fraction * core / mean_volume))
     return diameter / 2 * (1 + spread * rng.uniform(-1, 1, count))
 
 
 def random_packing(
-    box: Box,
+    container: Container,
     radii: np.ndarray,
     rng: np.random.Generator,
     tolerance: float = 0.04,
     max_iterations: int = 1500,
 ) -> np.ndarray:
-    """Centres of spheres that fill `box` at random with overlaps below `tolerance` times the mean radius.
+    """Centres of spheres that fill the container at random with overlaps below `tolerance` times the mean radius.
 
     Each iteration moves every overlapping pair apart along its line of centres and lets walls, floor and
     an imagined lid push back. Towards random close packing convergence slows down; the iteration then
@@ -92,9 +150,7 @@ def random_packing(
         Centres [m].
     """
     mean_radius = float(radii.mean())
-    margin = radii[:, None]
-    low, high = box.lower + margin, box.upper - margin
-    centres = rng.uniform(low, high)
+    centres = container.scatter(radii, rng)
     skin = 0.3 * mean_radius
     reference = np.full_like(centres, np.inf)
     first = second = np.empty(0, dtype=int)
@@ -106,7 +162,7 @@ def random_packing(
         if overlap.size == 0 or overlap.max() < tolerance * mean_radius:
             break
         centres += 0.6 * _gather(push, first, second, len(radii))
-        np.clip(centres, low, high, out=centres)
+        container.push_inside(centres, radii)
     return centres
 
 

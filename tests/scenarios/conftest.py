@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A small drop run in the process of the tests."""
+"""Small runs in the process of the tests."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from scenario_script import SMALL
+from scenario_script import SMALL, TINY
 
 from grainfall.drop import drop_test
+from grainfall.triaxial import triaxial_test
 
 
 @pytest.fixture(scope="session")
@@ -28,3 +29,31 @@ def small_drop(bed_cache: Path, tmp_path: Path) -> Callable[..., tuple[dict[str,
         return drop_test(output=str(output), quiet=True, **options), output
 
     return run
+
+
+@pytest.fixture(scope="session")
+def sample_cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One store of triaxial samples for all tests, so that each sample is prepared once."""
+    return tmp_path_factory.mktemp("samples")
+
+
+@pytest.fixture(scope="session")
+def tiny_test(
+    sample_cache: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Callable[..., tuple[dict[str, Any], Path]]:
+    """Run a tiny triaxial test in this process: summary and results folder."""
+
+    def run(**changes: Any) -> tuple[dict[str, Any], Path]:
+        output = tmp_path_factory.mktemp("triaxial")
+        options = {**TINY, "sample_cache": str(sample_cache), **changes}
+        return triaxial_test(output=str(output), quiet=True, **options), output
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def finished_test(
+    tiny_test: Callable[..., tuple[dict[str, Any], Path]]
+) -> tuple[dict[str, Any], Path]:
+    """A finished tiny test at two frequencies, with its pictures; not to be changed."""
+    return tiny_test(frequencies="150,100", no_plots=False)

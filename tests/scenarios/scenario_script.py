@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A drop small enough for a test, and the scenario started as a user does."""
+"""Scenarios small enough for a test, and started as a user does."""
 from __future__ import annotations
 
 import os
@@ -7,7 +7,9 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
-SCRIPT = Path(__file__).resolve().parents[2] / "scenarios" / "drop_test.py"
+SCENARIOS = Path(__file__).resolve().parents[2] / "scenarios"
+SCRIPT = SCENARIOS / "drop_test.py"
+TRIAXIAL = SCENARIOS / "triaxial_calibration.py"
 
 # The half-scale replica on 8 mm grains that are soft enough for a step of 44 microseconds.
 SMALL = {
@@ -21,6 +23,18 @@ SMALL = {
     "vtk_interval": 0,
 }
 
+# Some 70 grains, 3 across: enough to hold a pressure.
+TINY = {
+    "grain_diameter": 8e-3,
+    "diameter": 26e-3,
+    "height": 55e-3,
+    "friction": "0.5",
+    "frequencies": "150",
+    "least_cycles": 2,
+    "most_cycles": 3,
+    "no_plots": True,
+}
+
 
 def script_arguments(options: dict[str, Any]) -> list[str]:
     """Options as they are typed: ``--grain-diameter 0.008``; True stands for a bare flag."""
@@ -32,10 +46,10 @@ def script_arguments(options: dict[str, Any]) -> list[str]:
     return arguments
 
 
-def start_script(options: dict[str, Any]) -> subprocess.Popen[str]:
+def start_script(options: dict[str, Any], script: Path = SCRIPT) -> subprocess.Popen[str]:
     """Start the scenario as a user does, with one thread."""
     return subprocess.Popen(
-        ["yade", "-j1", "-n", "-x", str(SCRIPT), *script_arguments(options)],
+        ["yade", "-j1", "-n", "-x", str(script), *script_arguments(options)],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

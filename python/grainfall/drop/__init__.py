@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from grainfall.drop.options import OptionError
 from grainfall.drop.run import drop_test
+from grainfall.options import OptionError
 
 __all__ = ["OptionError", "drop_test"]

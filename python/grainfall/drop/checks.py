@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from grainfall.drop.options import OptionError
+from grainfall.options import OptionError
+from grainfall.sand_options import friction_is_known
 
 
 def only_one_speed(values: dict[str, Any], given: Mapping[str, Any]) -> None:
@@ -58,20 +59,6 @@ def grains_fit(values: dict[str, Any], given: Mapping[str, Any]) -> None:
             )
 
 
-def friction_is_known(values: dict[str, Any], given: Mapping[str, Any]) -> None:
-    """The texts for friction and its moisture factor can be read."""
-    from grainfall.contacts import friction_curve
-
-    try:
-        friction_curve(values["friction"])
-    except ValueError as error:
-        raise OptionError(_naming("--friction", values["friction"], error)) from None
-    try:
-        friction_curve(values["friction"], values["moisture_factor"])
-    except ValueError as error:
-        raise OptionError(_naming("--moisture-factor", values["moisture_factor"], error)) from None
-
-
 def time_step_has_one_master(values: dict[str, Any], given: Mapping[str, Any]) -> None:
     """A step is given where it is to be fixed, and only there; a control overrules a preset's step."""
     control = values["time_step_control"]
@@ -83,12 +70,6 @@ def time_step_has_one_master(values: dict[str, Any], given: Mapping[str, Any]) -
                 f"--time-step = {given['time_step']}, --time-step-control = {control!r}: must be one of the two"
             )
         values["time_step"] = None
-
-
-def _naming(flag: str, value: Any, error: Exception) -> str:
-    """The message with the option's name in front, unless it is there already."""
-    text = str(error)
-    return text if text.startswith(flag) else f"{flag} = {value!r}: {text}"
 
 
 CHECKS = (

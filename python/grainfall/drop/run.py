@@ -6,7 +6,6 @@ from __future__ import annotations
 import json
 import os
 import sys
-import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -18,21 +17,21 @@ from yade import O
 from grainfall.bed_settling import unrest
 from grainfall.beds import Bed, load_bed, obtain_bed, save_bed
 from grainfall.drop import trace as traces
-from grainfall.drop.options import OptionError
 from grainfall.drop.parameters import QUICK, TABLE
-from grainfall.drop.progress import Progress
 from grainfall.drop.results import touch_time
 from grainfall.drop.scene import bed_spec, build_scene, projectile_id
 from grainfall.drop.snapshots import Snapshots
-from grainfall.drop.summary import Clock, make_summary, print_summary
+from grainfall.drop.summary import make_summary, print_summary
 from grainfall.materials import check_scene
+from grainfall.options import OptionError
+from grainfall.price import Clock
+from grainfall.progress import Progress
 from grainfall.projectile_mesh import outline
+from grainfall.running import advance
 
 STATE, PARAMETERS, BED, EARLIER = "state.yade.gz", "parameters.json", "bed.h5", "earlier_parts.json"
 #: The nose has come to rest when it sinks slower than the rest speed over this time [s].
 REST_DURATION = 10e-3
-#: Wall time between two looks at the running simulation [s].
-POLL = 0.02
 
 
 def drop_test(**given: Any) -> dict[str, Any]:
@@ -81,13 +80,6 @@ def _resolve(given: Mapping[str, Any]) -> tuple[Path, dict[str, Any]]:
         raise OptionError("--drop-height or --impact-speed: one of the two must be given")
     folder = Path(parameters["output"] or Path("results") / parameters["preset"])
     return folder, parameters
-
-
-def _wait() -> None:
-    """Wait for the simulation to stop; an error in one of its engines is raised here."""
-    while O.running:
-        time.sleep(POLL)
-    O.wait()
 
 
 class DropRun:
@@ -179,8 +171,6 @@ class DropRun:
                 self._advance(max(1, round((goal - O.time) / O.dt)))
                 progress.update(O.time / p["duration"], self._state())
         except KeyboardInterrupt:
-            O.pause()
-            _wait()
             self.interrupted = True
         else:
             progress.update(1.0, self._state())
@@ -189,9 +179,8 @@ class DropRun:
         progress.close()
 
     def _advance(self, steps: int) -> None:
-        """Run so many steps; polled rather than waited for, so that Ctrl-C gets through."""
-        O.run(steps)
-        _wait()
+        """Run so many steps and see that the projectile is still there."""
+        advance(steps)
         if self.trace.rows and not np.isfinite(self.trace.rows[-1][1]):
             raise FloatingPointError(
                 "the projectile's position is not a number: reduce --dt-safety or --time-step"

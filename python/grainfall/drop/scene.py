@@ -13,35 +13,13 @@ from yade import O, Quaternion
 
 from grainfall.bed_scene import WALL_COUNT, add_bed, restore_contacts
 from grainfall.beds import Bed, BedSpec
+from grainfall.constants import GRAVITY
 from grainfall.contacts import Sand, contact_loop, rayleigh_step
-from grainfall.drop.parameters import GRAVITY
 from grainfall.drop.trace import ENERGY_EVERY
 from grainfall.projectiles import make_projectile, projectile
 
 #: The projectile starts this many mean grain diameters above the highest grain.
 CLEARANCE_DIAMETERS = 0.5
-
-
-def sand_of(parameters: Mapping[str, Any]) -> Sand:
-    """Contact parameters of the sand."""
-    p = parameters
-    return Sand(
-        density=p["grain_density"],
-        young=p["young"],
-        poisson=p["poisson"],
-        restitution=p["restitution"],
-        friction=p["friction"],
-        moisture=p["moisture"],
-        moisture_factor=p["moisture_factor"],
-        reference_diameter=p["reference_diameter"],
-        normal_law=p["normal_law"],
-        tangential_law=p["tangential_law"],
-        bridges=p["bridges"],
-        bridges_per_grain=p["bridges_per_grain"],
-        surface_tension=p["surface_tension"],
-        contact_angle=p["contact_angle"],
-        liquid_viscosity=p["liquid_viscosity"],
-    )
 
 
 def bed_spec(parameters: Mapping[str, Any]) -> BedSpec:
@@ -57,7 +35,7 @@ def bed_spec(parameters: Mapping[str, Any]) -> BedSpec:
         solid_fraction=p["solid_fraction"],
         wall_friction=p["wall_friction"],
         seed=p["seed"],
-        sand=sand_of(p),
+        sand=Sand.of(p),
     )
 
 
@@ -77,7 +55,7 @@ def time_step(parameters: Mapping[str, Any], bed: Bed) -> float:
     """First time step [s]: as given, or a fraction of the smallest grain's Rayleigh step."""
     if parameters["time_step"] is not None:
         return parameters["time_step"]
-    sand = sand_of(parameters)
+    sand = Sand.of(parameters)
     rayleigh = rayleigh_step(float(bed.radii.min()), sand.density, sand.young, sand.poisson)
     return parameters["dt_safety"] * rayleigh
 
@@ -85,7 +63,7 @@ def time_step(parameters: Mapping[str, Any], bed: Bed) -> float:
 def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
     """Fill an empty scene: bodies, engines, step. Labels: see `_engines`."""
     p = parameters
-    sand = sand_of(p)
+    sand = Sand.of(p)
     O.reset()
     wall = sand.material(
         "wall", friction=p["wall_friction"], referenceRadius=0.0, gravimetricMoisture=0.0

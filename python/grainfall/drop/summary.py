@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import builtins
 import math
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from yade import O
 
 from grainfall.beds import Bed
 from grainfall.drop.results import drop_results, energy_results
+from grainfall.price import engine_seconds
 from grainfall.report.html_page import number, split_unit
 
 if TYPE_CHECKING:
@@ -32,25 +32,6 @@ PRINTED = (
     "simulated_seconds",
     "wall_seconds",
 )
-
-
-class Clock:
-    """Wall time by phase."""
-
-    def __init__(self) -> None:
-        self.started = self._lap = time.monotonic()
-        self.phases: dict[str, float] = {}
-
-    def lap(self, phase: str) -> None:
-        """Book the time since the last lap to this phase."""
-        now = time.monotonic()
-        self.phases[phase] = self.phases.get(phase, 0.0) + now - self._lap
-        self._lap = now
-
-    @property
-    def total(self) -> float:
-        """Wall time since the start [s]."""
-        return time.monotonic() - self.started
 
 
 def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
@@ -78,7 +59,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
     summary["effects"] = dict(builtins.contact_law.effects)
     if p["moisture"] > 0 and p["bridges"] != "none":
         summary["water"] = water(builtins.contact_law.water())
-    summary["price"] = engine_seconds(run)
+    summary["price"] = engine_seconds(run.clock, "drop", run.earlier["price"])
     summary["bed"] = {**bed.report, "from_cache": run.bed_was_cached}
     summary["parameters"] = dict(p)
     summary["notes"] = notes(summary, p)
@@ -99,19 +80,6 @@ def time_steps(p: dict[str, Any]) -> dict[str, Any]:
         "time_step_mean_s": mean,
         "time_step_decided_by": reason,
     }
-
-
-def engine_seconds(run: DropRun) -> dict[str, float]:
-    """Wall time by engine [s], and of what happened outside them."""
-    price = {
-        engine.label or engine.__class__.__name__: engine.execTime * 1e-9 for engine in O.engines
-    }
-    price.update(run.clock.phases)
-    price["drop"] = max(0.0, price.pop("drop", 0.0) - sum(e.execTime for e in O.engines) * 1e-9)
-    price["checkpoints, snapshots, waiting"] = price.pop("drop")
-    for name, seconds in run.earlier["price"].items():
-        price[name] = price.get(name, 0.0) + seconds
-    return price
 
 
 def water(budget: dict[str, Any]) -> dict[str, float]:

@@ -42,7 +42,21 @@ _RESULTS = (
 )
 
 #: Units as keys end in them, longest first.
-_UNITS = ("m_per_s", "N_per_m", "kg_per_m3", "per_s", "deg", "kg", "Pa", "m", "s", "N", "J")
+_UNITS = (
+    "N_s_per_m",
+    "m_per_s",
+    "N_per_m",
+    "kg_per_m3",
+    "per_s",
+    "deg",
+    "kg",
+    "Pa",
+    "Hz",
+    "m",
+    "s",
+    "N",
+    "J",
+)
 
 
 def split_unit(key: str) -> tuple[str, str]:
@@ -50,7 +64,7 @@ def split_unit(key: str) -> tuple[str, str]:
     for unit in _UNITS:
         if key.endswith("_" + unit):
             name = key[: -len(unit) - 1]
-            written = unit.replace("_per_", "/").replace("per_", "1/")
+            written = unit.replace("_per_", "/").replace("per_", "1/").replace("_", " ")
             return name.replace("_", " "), re.sub(r"m3$", "m³", written)
     return key.replace("_", " "), ""
 
@@ -70,18 +84,32 @@ def number(value: Any) -> str:
     return str(value)
 
 
-def write_page(summary: Mapping[str, Any], pictures: Iterable[Path], path: str | Path) -> Path:
-    """Write the page; the pictures (PNG) are embedded, so the file can be sent by itself."""
+def write_page(
+    summary: Mapping[str, Any],
+    pictures: Iterable[Path],
+    path: str | Path,
+    columns: Sequence[str] = (),
+) -> Path:
+    """Write the page; the pictures (PNG) are embedded, so the file can be sent by itself.
+
+    Parameters
+    ----------
+    summary : mapping
+        Contents of ``summary.json``.
+    columns : sequence of str
+        Keys whose lists, all of one length, stand side by side in a table of results.
+    """
     title = str(summary.get("title", f"Drop {summary.get('preset', '')}"))
     body = [f"<h1>{html.escape(title)}</h1>", f'<p class="lead">{html.escape(_lead(summary))}</p>']
     body += _results(summary)
+    body += _columns({key: summary[key] for key in columns if key in summary})
     for picture in pictures:
         encoded = base64.b64encode(Path(picture).read_bytes()).decode("ascii")
         caption = html.escape(Path(picture).stem.replace("_", " "))
         body.append(
             f'<h2>{caption}</h2><img alt="{caption}" src="data:image/png;base64,{encoded}">'
         )
-    shown = {key for key, _ in _RESULTS}
+    shown = {key for key, _ in _RESULTS} | set(columns)
     nested = {k: v for k, v in summary.items() if isinstance(v, Mapping)}
     plain = {
         k: v for k, v in summary.items() if k not in nested and k not in shown and k != "title"
@@ -123,6 +151,26 @@ def _results(summary: Mapping[str, Any]) -> list[str]:
         value = f"{number(summary[key])} {unit}".strip()
         cells.append(f"<div><b>{html.escape(value)}</b><span>{html.escape(name)}</span></div>")
     return ['<div class="results">', *cells, "</div>"]
+
+
+def _columns(table: Mapping[str, Sequence[Any]]) -> list[str]:
+    """Lists of one length, side by side under their names and units."""
+    if not table:
+        return []
+    heads = []
+    for key in table:
+        name, unit = split_unit(key)
+        heads.append(f"<th>{html.escape(name)}{html.escape(f' [{unit}]' if unit else '')}</th>")
+    rows = [
+        "".join(f'<td class="number">{html.escape(number(value))}</td>' for value in row)
+        for row in zip(*table.values())
+    ]
+    return [
+        "<h2>results</h2><table>",
+        f"<tr>{''.join(heads)}</tr>",
+        *(f"<tr>{row}</tr>" for row in rows),
+        "</table>",
+    ]
 
 
 def _price(price: Mapping[str, Any]) -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every parameter of a drop: name, unit, default, allowed range, and how it is read from a command line.
+"""Every parameter of a scenario: name, unit, default, allowed range, and how it is read from a command line.
 
 One table serves the command line (``--grain-diameter``), the function (``grain_diameter=``) and the columns
 of a ``yade-batch`` table, so that the three cannot drift apart.
@@ -128,6 +128,8 @@ class OptionTable:
         Defaults by preset.
     checks : iterable of callables
         Each gets all values and those given; raises `OptionError` for values that do not fit together.
+    prog : str
+        Name of the scenario's script, for its help.
     """
 
     def __init__(
@@ -135,10 +137,12 @@ class OptionTable:
         groups: Mapping[str, Iterable[Option]],
         presets: Mapping[str, Mapping[str, Any]],
         checks: Iterable[Callable[[dict[str, Any], Mapping[str, Any]], None]] = (),
+        prog: str = "",
     ) -> None:
         self.groups = {title: tuple(options) for title, options in groups.items()}
         self.presets = presets
         self.checks = tuple(checks)
+        self.prog = prog
         self.by_name = {option.name: option for group in self.groups.values() for option in group}
 
     def check_name(self, name: str) -> None:
@@ -156,7 +160,7 @@ class OptionTable:
     def parser(self, description: str, epilog: str) -> argparse.ArgumentParser:
         """Command-line parser; values are left as text for `resolve` to check."""
         parser = argparse.ArgumentParser(
-            prog="drop_test.py",
+            prog=self.prog or None,
             description=description,
             epilog=epilog,
             formatter_class=argparse.RawDescriptionHelpFormatter,
