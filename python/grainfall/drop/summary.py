@@ -15,6 +15,7 @@ from grainfall.beds import Bed
 from grainfall.drop.results import drop_results, energy_results
 from grainfall.price import engine_seconds
 from grainfall.report.html_page import number, split_unit
+from grainfall.water import water_budget
 
 if TYPE_CHECKING:
     from grainfall.drop.run import DropRun
@@ -58,7 +59,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
     summary["largest_overlap_over_radius"] = run.snapshots.largest_relative_overlap
     summary["effects"] = dict(builtins.contact_law.effects)
     if p["moisture"] > 0 and p["bridges"] != "none":
-        summary["water"] = water(builtins.contact_law.water())
+        summary["water"] = water_budget()
     summary["price"] = engine_seconds(run.clock, "drop", run.earlier["price"])
     summary["bed"] = {**bed.report, "from_cache": run.bed_was_cached}
     summary["parameters"] = dict(p)
@@ -79,20 +80,6 @@ def time_steps(p: dict[str, Any]) -> dict[str, Any]:
         "time_step_smallest_s": smallest,
         "time_step_mean_s": mean,
         "time_step_decided_by": reason,
-    }
-
-
-def water(budget: dict[str, Any]) -> dict[str, float]:
-    """Where the water is at the end, volumes at the size of the simulated grains."""
-    return {
-        "total_m3": budget["total"],
-        "in_bridges_m3": budget["inBridges"],
-        "on_grains_m3": budget["onGrains"],
-        "bridges": budget["bridges"],
-        "mean_bridge_volume_over_radius_cubed": budget["meanRelativeVolume"],
-        "share_beyond_pendular": budget["beyondPendular"],
-        "share_beyond_range_of_force": budget["beyondFit"],
-        "overdrawn_grains": budget["overdrawnGrains"],
     }
 
 

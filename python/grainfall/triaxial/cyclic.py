@@ -57,7 +57,6 @@ class CyclicTest:
         self.step = self.period / self.steps_per_cycle
         self.rows: list[tuple[float, ...]] = []
         self.cycle_ends: list[int] = []
-        self.work = 0.0
         self._start = O.time
         self._share = 0.5 * peak_to_peak / len(self.frequencies)
         self._omegas = [2 * math.pi * frequency for frequency in self.frequencies]
@@ -65,7 +64,6 @@ class CyclicTest:
         self._state = O.bodies[sample.top_platen].state
         self._sums = [0.0] * len(COLUMNS)
         self._count = 0
-        self._last: tuple[float, float] | None = None
 
     def target(self, time: float) -> float:
         """Displacement at this time since the start [m]; over the first cycle the amplitude grows from zero.
@@ -85,7 +83,6 @@ class CyclicTest:
         now = O.time - self._start
         displacement = self._zero - self._state.pos[2]
         below, above = scene.platen_forces(self.sample)
-        self._book_work(displacement, above)
         row = (now, displacement, below, above)
         self._sums = [total + value for total, value in zip(self._sums, row)]
         self._count += 1
@@ -96,16 +93,9 @@ class CyclicTest:
         span = self.stride * self.step
         self._state.vel = Vector3(0, 0, (displacement - self.target(now + span)) / span)
 
-    def _book_work(self, displacement: float, force: float) -> None:
-        """Add the work since the last call [J]."""
-        if self._last is not None:
-            self.work += 0.5 * (force + self._last[1]) * (displacement - self._last[0])
-        self._last = (displacement, force)
-
     def end_cycle(self) -> None:
-        """Mark the end of a cycle in the record; the work is complete up to here."""
+        """Mark the end of a cycle in the record."""
         self.cycle_ends.append(len(self.rows))
-        self._book_work(self._zero - self._state.pos[2], scene.platen_forces(self.sample)[1])
 
     def table(self, cycles: int | None = None) -> np.ndarray:
         """The record, or its last cycles, shape (rows, 4), columns `COLUMNS`."""

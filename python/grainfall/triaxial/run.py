@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import builtins
 import json
 import os
 import sys
@@ -15,8 +16,6 @@ import numpy as np
 import yade.timing
 from yade import O
 
-from grainfall.bed_scene import grain_centres
-from grainfall.constants import GRAVITY
 from grainfall.contacts import Sand
 from grainfall.materials import check_scene
 from grainfall.options import OptionError
@@ -167,8 +166,8 @@ class TriaxialRun:
             for warning in check_scene():
                 print(f"warning: {warning}", file=sys.stderr)
         progress.close()
-        O.engines = [*O.engines[:3], cyclic.actuator(), *O.engines[3:]]
-        O.trackEnergy = not p["no_energy"]
+        ledger = [] if p["no_energy"] else [scene.energy_ledger()]
+        O.engines = [*O.engines[:3], cyclic.actuator(), *O.engines[3:], *ledger]
         self.clock.lap("preloading")
         for old in self.folder.glob("loops_*.csv"):
             old.unlink()
@@ -213,8 +212,10 @@ class TriaxialRun:
         longest = p["dt_safety"] * scene.stable_step(self.sample)
         test = cyclic.CyclicTest(self.sample, frequencies, peak_to_peak(p), longest)
         cyclic.start(test)
-        before = self.finished["energies"]
-        places = grain_centres(len(self.sample.radii))
+        before = scene.dissipated()
+        ledger = None if p["no_energy"] else builtins.energy_ledger
+        if ledger is not None:
+            ledger.restart()
         name = " + ".join(f"{frequency:g}" for frequency in frequencies) + " Hz"
         progress = Progress(name, p["quiet"])
         for cycle in range(p["most_cycles"] + 1):
@@ -230,25 +231,10 @@ class TriaxialRun:
                 break
         progress.close()
         cyclic.stop()
-        outside = self._outside_work(places)
-        return test, test_results(test, p, before, scene.energies(), outside)
-
-    def _outside_work(self, places: np.ndarray) -> float:
-        """Work of membrane and weight on the grains since they stood at `places`, shape (n, 3) [J]."""
-        moved = grain_centres(len(places)) - places
-        held = np.array([O.forces.permF(i) for i in range(len(places))])
-        work = float(np.sum(held * moved))
-        if self.parameters["gravity"]:
-            mass = np.array([O.bodies[i].state.mass for i in range(len(places))])
-            work -= GRAVITY * float(mass @ moved[:, 2])
-        return work
+        return test, test_results(test, p, before, ledger)
 
     def _checkpoint(self) -> None:
-        """Save the state after a finished stretch; the old one is replaced only once the new one is whole.
-
-        Energies are kept beside it: those of contacts cannot be asked for in a scene that was just loaded.
-        """
-        self.finished["energies"] = scene.energies()
+        """Save the state after a finished stretch; the old one is replaced only once the new one is whole."""
         forces = np.array([O.forces.permF(i) for i in range(len(self.sample.radii))])
         np.save(self.folder / FORCES, forces)
         partial = self.folder / f"partial-{STATE}"

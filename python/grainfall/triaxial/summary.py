@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import builtins
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ from grainfall.triaxial.parameters import (
     real_peak_to_peak,
     softness,
 )
+from grainfall.water import water_budget
 
 if TYPE_CHECKING:
     from grainfall.triaxial.run import TriaxialRun
@@ -33,18 +35,17 @@ FITTED_CYCLES = 2
 def test_results(
     test: CyclicTest,
     parameters: dict[str, Any],
-    before: dict[str, float],
-    after: dict[str, float],
-    outside_work: float,
+    before: Mapping[str, float],
+    ledger: Any,
 ) -> dict[str, Any]:
     """Results of one stretch of cycles.
 
     Parameters
     ----------
-    before, after : dict
-        Energies [J] when it began and ended.
-    outside_work : float
-        Work of membrane and weight on the grains in between [J].
+    before : mapping
+        What the contacts had dissipated when it began [J].
+    ledger : EnergyLedger or None
+        Begun with the stretch; None where no energies are booked.
     """
     change = test.change()
     lower, upper = test.responses(FITTED_CYCLES), test.responses(FITTED_CYCLES, "upper")
@@ -69,31 +70,28 @@ def test_results(
         "time_step_s": test.step,
         "steps": test.steps_per_cycle * len(test.cycle_ends),
     }
-    if not parameters["no_energy"]:
-        results.update(_energy_balance(test, before, after, outside_work, results))
+    if ledger is not None:
+        results.update(_energy_balance(test, before, ledger, results))
     return results
 
 
 def _energy_balance(
-    test: CyclicTest,
-    before: dict[str, float],
-    after: dict[str, float],
-    outside_work: float,
-    results: dict[str, Any],
+    test: CyclicTest, before: Mapping[str, float], ledger: Any, results: Mapping[str, Any]
 ) -> dict[str, float]:
-    """Work put in less energy kept and dissipated; relative to the energy that a cycle stores and returns."""
-    grown = {name: after[name] - before[name] for name in before}
-    residual = test.work + outside_work - sum(grown.values())
+    """The ledger's balance of this stretch; its residual over the energy that a cycle stores and returns."""
+    terms = ledger.table()
     stored = 0.5 * float(np.max(results["stiffness_N_per_m"])) * test.peak_to_peak**2
+    lost = {name: terms[name] - before[name] for name in before}
     return {
-        "energy_residual_J": residual,
-        "energy_residual_relative": abs(residual) / stored,
+        "energy_residual_J": terms["residual"],
+        "energy_residual_relative": abs(terms["residual"]) / stored,
         "energy_stored_in_a_cycle_J": stored,
-        "platen_work_J": test.work,
-        "membrane_work_J": outside_work,
-        "dissipated_by_friction_J": grown["friction"],
-        "dissipated_by_dashpots_J": grown["viscous"],
-        "dissipated_by_rescaling_J": grown["rescaling"],
+        "platen_work_J": terms["imposedMotion"],
+        "membrane_work_J": terms["permanentLoad"],
+        "dissipated_by_friction_J": lost["friction"],
+        "dissipated_by_dashpots_J": lost["viscous"],
+        "dissipated_by_rescaling_J": lost["rescaling"],
+        "lost_in_ruptured_bridges_J": lost["bridgeRupture"],
     }
 
 
@@ -117,6 +115,8 @@ def make_summary(run: TriaxialRun) -> dict[str, Any]:
     summary["displacement_peak_to_peak_m"] = peak_to_peak(p)
     summary.update(_scaling(run))
     summary["effects"] = dict(builtins.contact_law.effects)
+    if p["moisture"] > 0 and p["bridges"] != "none":
+        summary["water"] = water_budget()
     summary["price"] = engine_seconds(run.clock, "cycles", run.finished["price"])
     summary["preload"] = run.finished["preload"]
     summary["sample"] = {**run.sample.report, "from_cache": run.sample_was_cached}
