@@ -23,7 +23,7 @@ FIXED = {
     "no_plots": True,
     "quiet": True,
 }
-GRAIN = 6e-3
+GRAIN = 8e-3
 
 
 def run(**options: Any) -> Measurement:
@@ -53,27 +53,27 @@ CASE = Case(
     error="depth, relative to the finest grains [-]",
     cost="one drop of 60 ms",
     run=run,
-    reference={"grain_diameter": 4e-3},
+    reference={"grain_diameter": 5e-3},
     distance=distance,
     knobs=(
         Knob(
             "grain diameter [mm]",
             {f"{1e3 * d:g}": {"grain_diameter": d} for d in (12e-3, 10e-3, 8e-3, 6e-3, 5e-3)},
         ),
-        Knob("packing (seed), 6 mm", {str(seed): {"seed": seed} for seed in range(1, 5)}),
+        Knob("packing (seed), 8 mm", {str(seed): {"seed": seed} for seed in range(1, 5)}),
         Knob(
-            "step over Rayleigh step, 6 mm",
+            "step over Rayleigh step, 8 mm",
             {f"{s:g}": {"dt_safety": s} for s in (0.4, 0.3, 0.2, 0.1)},
         ),
         Knob(
-            "tangential law, 6 mm",
+            "tangential law, 8 mm",
             {
                 law: {"tangential_law": law}
                 for law in ("none", "incremental", "mindlin-deresiewicz")
             },
         ),
         Knob(
-            "Young's modulus of the grains [Pa], 6 mm",
+            "Young's modulus of the grains [Pa], 8 mm",
             {f"{e:.0e}": {"young": e} for e in (5e7, 2e8, 5e8)},
         ),
     ),

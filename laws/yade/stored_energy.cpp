@@ -9,6 +9,8 @@
 #include <core/Scene.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
+#include <cmath>
+
 namespace yade {
 
 StoredEnergy stored_energy(const Interaction& contact) {
@@ -21,10 +23,12 @@ StoredEnergy stored_energy(const Interaction& contact) {
         return energy;
     if (phys->bridge)
         energy.bridge = phys->bridge->work;
-    if (geom->penetrationDepth <= 0)
+    // YADE does not save the overlap: in a scene just loaded it follows from F = 2/3 kn d, dashpot neglected.
+    const bool loaded = std::isnan(geom->penetrationDepth) && phys->kn > 0;
+    const Real overlap = loaded ? 1.5 * phys->normalForce.norm() / phys->kn : geom->penetrationDepth;
+    if (!(overlap > 0))
         return energy;
     // F = 2/3 kn d and E = 2/5 F d for a force that goes with d^1.5, whatever its coefficient.
-    const Real overlap = geom->penetrationDepth;
     energy.normal = 4.0 / 15.0 * phys->kn * overlap * overlap;
     grainfall::laws::PartialSlipMemory memory;
     memory.shear_force = phys->shearElastic;

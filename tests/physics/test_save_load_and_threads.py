@@ -95,6 +95,24 @@ def test_material_comes_back_with_its_friction(name, tmp_path):
     assert (material.restitution, material.gravimetricMoisture) == (0.7, 0.04)
 
 
+def test_elastic_energy_is_known_as_soon_as_a_scene_is_loaded(tmp_path):
+    """Without dashpots: YADE does not save overlaps, and the force alone tells them."""
+    O.materials.append(SOLID.material(frictionAngle=0.5))
+    for n in range(2):
+        cs.add_sphere((0, 0, 1.99 * n * RADIUS), RADIUS, 0)
+    law = cs.grain_law()
+    cs.set_engines(law)
+    O.dt = 1e-6
+    O.run(3, True)
+    before = law[1][0].elasticEnergy()
+    O.save(str(tmp_path / "pair.xml"))
+    O.reset()
+    O.load(str(tmp_path / "pair.xml"))
+    after = O.engines[2].lawDispatcher.functors[0].elasticEnergy()
+    assert before["normal"] > 0
+    assert after["normal"] == pytest.approx(before["normal"], rel=1e-12)
+
+
 def run_pack(threads: int, output: Path, *arguments: str) -> dict:
     script = Path(__file__).with_name("friction_pack.py")
     command = ["yade", "-n", "-x", f"-j{threads}", str(script), str(output), *arguments]

@@ -96,23 +96,24 @@ def test_without_inertia_the_stiffness_hardly_depends_on_frequency(finished_test
     assert upper < free[0] < lower
 
 
-def test_energy_is_accounted_for_within_a_hundred_thousandth_of_what_a_cycle_stores(finished_test):
-    # Of the energy a cycle stores, a small part of what the membrane supplies; 2e-7 is usual.
+def test_energy_is_accounted_for_and_partial_slip_lets_go_of_no_shear_energy(finished_test):
+    # Of what a cycle stores, a small part of what the membrane supplies. The slip history is brought up to date where
+    # 1e-4 of the force has changed: so good are its books.
     summary, _ = finished_test
-    assert 0 <= summary["energy_residual_relative"] < 1e-5
+    assert 0 <= summary["energy_residual_relative"] < 3e-3
+    assert summary["dissipated_by_rescaling_J"] == [0.0, 0.0]
 
 
-def test_partial_slip_keeps_its_books_and_lets_go_of_no_shear_energy(tiny_test):
-    # The slip history is brought up to date where 1e-4 of the force has changed: so good are its books.
-    summary, _ = tiny_test(tangential_law="mindlin-deresiewicz")
-    assert summary["energy_residual_relative"] < 3e-3
-    assert summary["dissipated_by_rescaling_J"] == [0.0]
+def test_the_incremental_law_keeps_its_books_to_the_leapfrog_s_error(tiny_test):
+    summary, _ = tiny_test(tangential_law="incremental")
+    assert summary["energy_residual_relative"] < 1e-5
+    assert summary["dissipated_by_rescaling_J"][0] > 0
 
 
 def test_water_makes_bridges_and_the_sample_stiffer(tiny_test):
     # Suction presses the grains together: 2.3 % of water adds some 300 Pa (reference: Rumpf) to the confinement.
-    dry, _ = tiny_test(friction="0.5", tangential_law="mindlin-deresiewicz")
-    moist, _ = tiny_test(friction="0.5", tangential_law="mindlin-deresiewicz", moisture=0.023)
+    dry, _ = tiny_test(friction="0.5")
+    moist, _ = tiny_test(friction="0.5", moisture=0.023)
     assert moist["water"]["bridges"] > 100
     assert moist["stiffness_N_per_m"][0] > dry["stiffness_N_per_m"][0]
 

@@ -203,7 +203,7 @@ NUMERICS = (
     ),
     Option(
         "dt_safety",
-        0.2,
+        0.15,
         "time step over the Rayleigh step of the smallest grain, or over the critical step with "
         "--time-step-control hertz",
         "-",

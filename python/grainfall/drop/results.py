@@ -10,7 +10,13 @@ import numpy as np
 
 from grainfall.report.plots import CAMERA_RATE_PER_S, camera_average, camera_force
 
-DISSIPATED = ("friction", "viscous", "rescaling")
+# What contacts lose: term of the ledger -> column of the energies.
+DISSIPATED = {
+    "friction": "friction_J",
+    "viscous": "viscous_J",
+    "rescaling": "rescaling_J",
+    "bridgeRupture": "ruptured_J",
+}
 
 
 def touch_time(trace: Mapping[str, np.ndarray]) -> float:
@@ -113,7 +119,7 @@ def energy_results(ledger: Any, energy: Mapping[str, np.ndarray]) -> dict[str, A
         return {"energy_residual_relative": None}
     last = ledger.table()
     started = len(energy["time_s"]) > 0
-    first = {name: energy[f"{name}_J"][0] if started else 0.0 for name in DISSIPATED}
+    first = {name: energy[column][0] if started else 0.0 for name, column in DISSIPATED.items()}
     return {
         "energy_residual_J": ledger.largestResidual,
         "energy_residual_relative": ledger.largestResidual / ledger.energyInPlay,

@@ -20,6 +20,8 @@ _SAND = {
     "restitution": 0.8,
     "friction": "cole",
     "reference_diameter": 0.72e-3,
+    # The incremental law lets go of shear energy in every cycle (docs/triaxial.md).
+    "tangential_law": "mindlin-deresiewicz",
 }
 
 PRESETS: dict[str, dict[str, Any]] = {
