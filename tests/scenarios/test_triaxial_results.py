@@ -153,3 +153,11 @@ def test_coarsening_and_softening_are_stated(finished_test):
     ratio = np.divide(summary["equivalent_stiffness_N_per_m"], summary["modulus_Pa"])
     report = math.pi / 4 * 0.036**2 / 0.085
     np.testing.assert_allclose(ratio, report * 10 ** (2 / 3), rtol=1e-9)
+
+
+@pytest.mark.parametrize("confinement", [100.0, 200e3])
+def test_the_confinement_asked_for_is_reached_at_both_ends_of_its_range(tiny_test, confinement):
+    summary, _ = tiny_test(confinement=confinement)
+    # Love-Weber over five grains: the membrane's cells are as large as a grain.
+    assert summary["preload"]["lateral_stress_Pa"] == pytest.approx(confinement, rel=0.03)
+    assert summary["stiffness_N_per_m"][0] > 0

@@ -134,7 +134,9 @@ def _compress(sample: Sample, progress: Progress) -> Membrane:
 def _follow_stiffness(sample: Sample, chunk: int) -> None:
     """Lengthen the step to what the contacts allow, every `STEP_CHUNKS` chunks."""
     if chunk % STEP_CHUNKS == 0:
-        O.dt = STABLE_FRACTION * scene.stable_step(sample)
+        step = STABLE_FRACTION * scene.stable_step(sample)
+        if math.isfinite(step):
+            O.dt = step
 
 
 def _compact(sample: Sample, membrane: Membrane, progress: Progress) -> tuple[Membrane, float]:

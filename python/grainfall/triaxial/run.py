@@ -35,6 +35,8 @@ STATE, PARAMETERS, SAMPLE = "state.yade.gz", "parameters.json", "sample.h5"
 FORCES, FINISHED = "membrane_forces.npy", "finished.json"
 #: Pieces of a cycle between two looks at the keyboard.
 PIECES = 8
+#: Isotropic pressure [Pa] below which stiff grains take too long to be pressed together.
+LEAST_PREPARATION_PRESSURE = 1e3
 #: Isotropic pressure of the preparation over the confinement of the test.
 PREPARATION_PRESSURE = 0.5
 
@@ -99,7 +101,7 @@ def sample_spec(parameters: Mapping[str, Any]) -> SampleSpec:
         platen_young=p["platen_young"] * softness(dict(p)),
         platen_poisson=p["platen_poisson"],
         void_ratio=p["void_ratio"],
-        pressure=PREPARATION_PRESSURE * p["confinement"],
+        pressure=max(PREPARATION_PRESSURE * p["confinement"], LEAST_PREPARATION_PRESSURE),
         seed=p["seed"],
     )
 

@@ -185,7 +185,8 @@ def stable_step(sample: Sample) -> float:
     """Largest step that the contacts of this moment allow without damping [s].
 
     sqrt(2) min sqrt(m/K) over grains and directions, K the sum of a grain's contact stiffnesses along (or, with its
-    moment of inertia, about) an axis: the rule of YADE's manual. For a grain without contacts nothing follows.
+    moment of inertia, about) an axis: the rule of YADE's manual. For a grain without contacts nothing follows, and
+    without any contact the step is infinite.
     """
     count = len(sample.radii)
     along, about = np.zeros((count, 3)), np.zeros((count, 3))
@@ -201,7 +202,7 @@ def stable_step(sample: Sample) -> float:
     mass = np.array([O.bodies[i].state.mass for i in range(count)])[:, None]
     inertia = 0.4 * mass * sample.radii[:, None] ** 2
     rate = max(float((along / mass).max()), float((about / inertia).max()))
-    return math.sqrt(2 / rate)
+    return math.sqrt(2 / rate) if rate > 0 else math.inf
 
 
 def set_friction(mu: float) -> None:
