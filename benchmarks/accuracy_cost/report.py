@@ -47,7 +47,7 @@ def draw(results: dict[str, Any], file: Path) -> None:
     for marker, knob in zip("osD^vP*", knobs):
         points = [p for p in results["points"] if p["knob"] == knob]
         x = [p["cpu_seconds"] for p in points]
-        y = [max(p["error"], 1e-7) for p in points]
+        y = [p["error"] for p in points]
         numeric = all(re.fullmatch(r"[-+.\de]+", p["setting"]) for p in points)
         axes.plot(x, y, marker + ("-" if numeric else ""), label=knob, ms=5, lw=1)
         for p, px, py in zip(points, x, y):

@@ -3,6 +3,7 @@
 
 usage: make accuracy
        PYTHONPATH=build/python:benchmarks yade -j1 -n -x benchmarks/accuracy_cost/run.py [CASE ...] [--repeats N]
+       [--fresh]
 
 Writes benchmarks/results/accuracy_cost.json, docs/images/accuracy_<case>.png and the tables of docs/accuracy.md;
 cases that are not named keep what they had.
@@ -28,6 +29,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", metavar="CASE", help=f"of {', '.join(CASES)}")
     parser.add_argument("--repeats", type=int, help="runs of each setting (default: by case)")
+    parser.add_argument("--fresh", action="store_true", help="run kept references again")
     options = parser.parse_args()
     for name in options.cases:
         if name not in CASES:
@@ -36,8 +38,13 @@ def main() -> None:
     for name in options.cases or CASES:
         case = CASES[name]
         repeats = options.repeats or REPEATS[name]
-        points = study.measure(case, repeats, lambda text: print(text, flush=True))
-        results[name] = study.as_json(case, points)
+        kept = results.get(name, {})
+        truth = kept.get("reference_result")
+        if truth is None or kept["reference"] != study.reference_options(case) or options.fresh:
+            print(f"{name}: reference", flush=True)
+            truth = case.run(**case.reference).result
+        points = study.measure(case, repeats, truth, lambda text: print(text, flush=True))
+        results[name] = study.as_json(case, truth, points)
         RESULTS.parent.mkdir(parents=True, exist_ok=True)
         RESULTS.write_text(json.dumps(results, indent=2) + "\n", encoding="utf-8")
         report.write(name, results[name])

@@ -65,10 +65,11 @@ class Case:
     knobs: tuple[Knob, ...]
 
 
-def measure(case: Case, repeats: int, progress: Callable[[str], None]) -> list[Point]:
-    """Run every setting `repeats` times in turn; the least time of each counts, which other programs disturb least."""
-    progress(f"{case.name}: reference")
-    truth = case.run(**case.reference).result
+def measure(case: Case, repeats: int, truth: Any, progress: Callable[[str], None]) -> list[Point]:
+    """Run every setting `repeats` times in turn; the least time of each counts, which other programs disturb least.
+
+    `truth` is the result of the reference run.
+    """
     best: dict[tuple[str, str], Measurement] = {}
     for repeat in range(repeats):
         for knob in case.knobs:
@@ -91,11 +92,17 @@ def timed(function: Callable[[], None]) -> float:
     return time.process_time() - started
 
 
-def as_json(case: Case, points: Iterable[Point]) -> dict[str, Any]:
-    """What goes into the results file."""
+def reference_options(case: Case) -> dict[str, str]:
+    """Options of the reference run as the results file has them."""
+    return {key: str(value) for key, value in case.reference.items()}
+
+
+def as_json(case: Case, truth: Any, points: Iterable[Point]) -> dict[str, Any]:
+    """What goes into the results file; a reference that is one number is kept, since its run may be long."""
     return {
         "error": case.error,
         "cost": case.cost,
-        "reference": {key: str(value) for key, value in case.reference.items()},
+        "reference": reference_options(case),
+        "reference_result": truth if isinstance(truth, float) else None,
         "points": [asdict(point) for point in points],
     }
