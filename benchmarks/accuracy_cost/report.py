@@ -42,7 +42,7 @@ def table(results: dict[str, Any]) -> str:
 
 def draw(results: dict[str, Any], file: Path) -> None:
     """Error against processor time, one line a knob, each point with its setting."""
-    figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
+    figure, axes = plt.subplots(figsize=(7.5, 5.4), layout="constrained")
     knobs = dict.fromkeys(point["knob"] for point in results["points"])
     for marker, knob in zip("osD^vP*", knobs):
         points = [p for p in results["points"] if p["knob"] == knob]
@@ -61,7 +61,7 @@ def draw(results: dict[str, Any], file: Path) -> None:
         ylabel=results["error"],
     )
     axes.grid(True, which="both", lw=0.3)
-    axes.legend(fontsize=7)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, fontsize=7)
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=110)
     plt.close(figure)
