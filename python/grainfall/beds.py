@@ -6,7 +6,6 @@ its parameters, and put into a scene when needed (`grainfall.bed_scene`).
 """
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
@@ -17,7 +16,7 @@ import h5py
 import numpy as np
 
 from grainfall.contacts import Sand
-from grainfall.store import cache_folder, written_whole
+from grainfall.store import cache_folder, content_key, written_whole
 
 _FORMAT = 1
 
@@ -57,8 +56,7 @@ class BedSpec:
 
     def key(self) -> str:
         """Twelve hexadecimal digits that differ between specs."""
-        text = json.dumps({"format": _FORMAT, **asdict(self)}, sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:12]
+        return content_key({"format": _FORMAT, **asdict(self)})
 
 
 @dataclass

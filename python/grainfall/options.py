@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import json
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 
@@ -218,3 +220,28 @@ class OptionTable:
         for check in self.checks:
             check(values, given)
         return values
+
+
+def resumed(
+    table: OptionTable, given: Mapping[str, Any], state: str, parameters: str
+) -> tuple[Path, dict[str, Any]]:
+    """Folder and parameters of the interrupted run that ``given["resume"]`` names.
+
+    Parameters
+    ----------
+    state, parameters : str
+        Files of that folder: the scene to go on from, and the parameters of the run.
+
+    Raises
+    ------
+    OptionError
+        There is nothing to resume, or a parameter is given that only a new run can have.
+    """
+    folder = Path(given["resume"])
+    if not (folder / state).exists():
+        raise OptionError(f"--resume = {str(folder)!r}: must be a results folder with a {state}")
+    saved = json.loads((folder / parameters).read_text())
+    changed = [n for n in given if n in table.by_name and not table.by_name[n].runtime]
+    if changed:
+        raise OptionError(f"{table.by_name[changed[0]].flag} cannot be changed by a resumed run")
+    return folder, table.resolve({**saved, **given, "output": str(folder)})

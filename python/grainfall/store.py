@@ -2,10 +2,13 @@
 """Where prepared packings and finished runs are kept, and writing them so that no half file is ever read."""
 from __future__ import annotations
 
+import hashlib
+import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import h5py
 
@@ -16,6 +19,12 @@ def cache_folder(kind: str, cache: Path | str = "") -> Path:
         return Path(cache).expanduser()
     root = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
     return Path(root).expanduser() / "grainfall" / kind
+
+
+def content_key(values: Mapping[str, Any]) -> str:
+    """Twelve hexadecimal digits that differ between values."""
+    text = json.dumps(values, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
 @contextmanager

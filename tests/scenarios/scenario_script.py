@@ -55,3 +55,19 @@ def start_script(options: dict[str, Any], script: Path = SCRIPT) -> subprocess.P
         text=True,
         env=dict(os.environ),
     )
+
+
+def run_batch(table: Path, script: Path) -> None:
+    """Run a scenario over the rows of a parameter table, in the table's folder."""
+    # yade-batch writes its logs beside the script
+    (table.parent / script.name).write_text(script.read_text())
+    finished = subprocess.run(
+        ["yade-batch", "-j1", "--job-threads=1", table.name, script.name],
+        cwd=table.parent,
+        env=dict(os.environ),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=120,
+    )
+    assert finished.returncode == 0, finished.stdout

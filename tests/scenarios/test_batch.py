@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
 
-from scenario_script import SCRIPT, SMALL
+from scenario_script import SCRIPT, SMALL, run_batch
 
 
 def test_each_row_of_a_table_runs_with_its_own_parameters_into_its_own_folder(bed_cache, tmp_path):
@@ -17,18 +15,7 @@ def test_each_row_of_a_table_runs_with_its_own_parameters_into_its_own_folder(be
         values = [name, *map(repr, options.values()), repr(str(bed_cache)), repr(friction)]
         table.append(" ".join(values))
     (tmp_path / "frictions.table").write_text("\n".join(table) + "\n")
-    # yade-batch writes its logs beside the script
-    (tmp_path / "drop_test.py").write_text(SCRIPT.read_text())
-    finished = subprocess.run(
-        ["yade-batch", "-j1", "--job-threads=1", "frictions.table", "drop_test.py"],
-        cwd=tmp_path,
-        env=dict(os.environ),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=120,
-    )
-    assert finished.returncode == 0, finished.stdout
+    run_batch(tmp_path / "frictions.table", SCRIPT)
     summaries = [json.loads(path.read_text()) for path in tmp_path.rglob("summary.json")]
     frictions = sorted(summary["parameters"]["friction"] for summary in summaries)
     assert frictions == ["0.5", "cole"]

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
-import subprocess
 import time
 
 import pytest
-from scenario_script import TINY, TRIAXIAL, start_script
+from scenario_script import TINY, TRIAXIAL, run_batch, start_script
 
 from grainfall.triaxial import OptionError, triaxial_test
 
@@ -56,18 +54,7 @@ def test_a_row_of_a_batch_runs_with_its_own_parameters_into_its_own_folder(sampl
     options = {**TINY, "sample_cache": str(sample_cache), "quiet": True, "friction": "0.4"}
     columns, values = " ".join(options), " ".join(map(repr, options.values()))
     (tmp_path / "one.table").write_text(f"description {columns}\nfriction04 {values}\n")
-    # yade-batch writes its logs beside the script
-    (tmp_path / "triaxial_calibration.py").write_text(TRIAXIAL.read_text())
-    finished = subprocess.run(
-        ["yade-batch", "-j1", "--job-threads=1", "one.table", "triaxial_calibration.py"],
-        cwd=tmp_path,
-        env=dict(os.environ),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=120,
-    )
-    assert finished.returncode == 0, finished.stdout
+    run_batch(tmp_path / "one.table", TRIAXIAL)
     (path,) = tmp_path.rglob("summary.json")
     summary = json.loads(path.read_text())
     assert "friction04" in str(path)

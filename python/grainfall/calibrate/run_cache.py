@@ -2,12 +2,13 @@
 """Model runs kept on disk by the hash of their parameters, so that a calibration can be stopped and repeated."""
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
+
+from grainfall.store import content_key
 
 #: Digits to which parameters are told apart: the optimiser repeats points only up to rounding.
 DIGITS = 10
@@ -34,8 +35,7 @@ class RunCache:
     def __call__(self, parameters: Mapping[str, Any]) -> Any:
         """The function's value: found, or computed and kept."""
         rounded = {name: _rounded(value) for name, value in sorted(parameters.items())}
-        text = json.dumps(rounded, sort_keys=True)
-        key = hashlib.sha256(text.encode()).hexdigest()[:12]
+        key = content_key(rounded)
         path = self.folder / f"{key}.json"
         if path.exists():
             self.found += 1

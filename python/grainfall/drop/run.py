@@ -23,7 +23,7 @@ from grainfall.drop.scene import bed_spec, build_scene, projectile_id
 from grainfall.drop.snapshots import Snapshots
 from grainfall.drop.summary import make_summary, print_summary
 from grainfall.materials import check_scene
-from grainfall.options import OptionError
+from grainfall.options import OptionError, resumed
 from grainfall.price import Clock
 from grainfall.progress import Progress
 from grainfall.projectile_mesh import outline
@@ -60,21 +60,8 @@ def drop_test(**given: Any) -> dict[str, Any]:
 
 def _resolve(given: Mapping[str, Any]) -> tuple[Path, dict[str, Any]]:
     """Results folder and all parameters, those of the interrupted run where one is resumed."""
-    resume = given.get("resume")
-    if resume:
-        folder = Path(resume)
-        if not (folder / STATE).exists():
-            raise OptionError(
-                f"--resume = {str(folder)!r}: must be a results folder with a {STATE}"
-            )
-        saved = json.loads((folder / PARAMETERS).read_text())
-        changed = [n for n in given if n in TABLE.by_name and not TABLE.by_name[n].runtime]
-        if changed:
-            raise OptionError(
-                f"{TABLE.by_name[changed[0]].flag} cannot be changed by a resumed run"
-            )
-        checked = TABLE.resolve({**saved, **given, "output": str(folder)})
-        return folder, checked
+    if given.get("resume"):
+        return resumed(TABLE, given, STATE, PARAMETERS)
     parameters = TABLE.resolve(given, [lambda values: QUICK if values["quick"] else {}])
     if parameters["drop_height"] is None and parameters["impact_speed"] is None:
         raise OptionError("--drop-height or --impact-speed: one of the two must be given")

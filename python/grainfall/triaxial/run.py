@@ -18,7 +18,7 @@ from yade import O
 
 from grainfall.contacts import Sand
 from grainfall.materials import check_scene
-from grainfall.options import OptionError
+from grainfall.options import resumed
 from grainfall.price import Clock
 from grainfall.progress import Progress
 from grainfall.running import advance, undisturbed
@@ -66,20 +66,8 @@ def triaxial_test(**given: Any) -> dict[str, Any]:
 
 def _resolve(given: Mapping[str, Any]) -> tuple[Path, dict[str, Any]]:
     """Results folder and all parameters, those of the interrupted run where one is resumed."""
-    resume = given.get("resume")
-    if resume:
-        folder = Path(resume)
-        if not (folder / STATE).exists():
-            raise OptionError(
-                f"--resume = {str(folder)!r}: must be a results folder with a {STATE}"
-            )
-        saved = json.loads((folder / PARAMETERS).read_text())
-        changed = [n for n in given if n in TABLE.by_name and not TABLE.by_name[n].runtime]
-        if changed:
-            raise OptionError(
-                f"{TABLE.by_name[changed[0]].flag} cannot be changed by a resumed run"
-            )
-        return folder, TABLE.resolve({**saved, **given, "output": str(folder)})
+    if given.get("resume"):
+        return resumed(TABLE, given, STATE, PARAMETERS)
     parameters = TABLE.resolve(given)
     return (
         Path(parameters["output"] or Path("results") / f"triaxial-{parameters['preset']}"),

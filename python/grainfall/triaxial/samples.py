@@ -6,7 +6,6 @@ A sample knows nothing of the sand's friction, damping or moisture: one sample s
 """
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
@@ -16,7 +15,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from grainfall.store import cache_folder, written_whole
+from grainfall.store import cache_folder, content_key, written_whole
 
 _FORMAT = 1
 
@@ -67,8 +66,7 @@ class SampleSpec:
 
     def key(self) -> str:
         """Twelve hexadecimal digits that differ between specs."""
-        text = json.dumps({"format": _FORMAT, **asdict(self)}, sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:12]
+        return content_key({"format": _FORMAT, **asdict(self)})
 
 
 @dataclass
