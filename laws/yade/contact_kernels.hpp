@@ -5,6 +5,7 @@
 #include <laws/hertz_mindlin.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 #include <laws/yade/contact_rotation.hpp>
+#include <laws/yade/kernel_table.hpp>
 #include <laws/yade/wet_contact.hpp>
 
 #include <core/Body.hpp>
@@ -157,37 +158,25 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     return true;
 }
 
-template <class Normal, class Tangential, class Energy>
-struct TableMaker {
-    template <class Damping>
-    static void fill(Law::KernelTable& table, DashpotForm dashpot) {
-        put<Damping, gl::friction::Constant>(table, FrictionForm::constant, dashpot);
-        put<Damping, gl::friction::PowerLaw>(table, FrictionForm::power_law, dashpot);
-        put<Damping, gl::friction::Exponential>(table, FrictionForm::exponential, dashpot);
-        put<Damping, gl::friction::Asperity>(table, FrictionForm::asperity, dashpot);
-        put<Damping, gl::friction::Table>(table, FrictionForm::table, dashpot);
-        put<Damping, gl::friction::Any>(table, FrictionForm::combined, dashpot);
-    }
-    template <class Damping, class Friction>
-    static void put(Law::KernelTable& table, FrictionForm friction, DashpotForm dashpot) {
-        // Without a tangential force the curve is never read: one kernel serves all.
-        using Read = std::conditional_t<Tangential::active, Friction, gl::friction::Constant>;
-        table[ContactClass(friction, dashpot).index] = &step<Normal, Tangential, Damping, Read, Energy>;
-    }
-    static Law::KernelTable table() {
-        Law::KernelTable result{};
-        fill<gl::NoDamping>(result, DashpotForm::none);
-        fill<gl::RepulsiveDashpot>(result, DashpotForm::repulsive);
-        fill<gl::AttractiveDashpot>(result, DashpotForm::attractive);
-        put_wet_kernels(result, Energy::active);
-        return result;
+struct StepMaker {
+    template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+    static Law::Kernel kernel() {
+        return &step<Normal, Tangential, Damping, Friction, Energy>;
     }
 };
 
+template <class Normal, class Tangential, class Energy>
+Law::KernelTable make_table() {
+    Law::KernelTable table{};
+    DryKernels<StepMaker, Normal, Tangential, Energy, Law::KernelTable>::put(table);
+    put_wet_kernels(table, Energy::active);
+    return table;
+}
+
 template <class Normal, class Tangential>
 KernelTables::Pair both() {
-    return {TableMaker<Normal, Tangential, gl::NoEnergy>::table(),
-            TableMaker<Normal, Tangential, gl::DissipationBook>::table()};
+    return {make_table<Normal, Tangential, gl::NoEnergy>(),
+            make_table<Normal, Tangential, gl::DissipationBook>()};
 }
 
 template <class Tangential>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Facts: InteractionContainer is 192 bytes, its linear vector (real and potential interactions) at 24; find
-// and requestErase are exported; Python does not know the class; an erased interaction stays as potential
+// Facts: InteractionContainer is 192 bytes, its linear vector (real and potential interactions) at 24; find,
+// insert, erase and requestErase are exported; Python does not know the class; an erased interaction stays as potential
 // until the collider drops it. Verified: tests/abi.
 #pragma once
 
@@ -36,6 +36,9 @@ public:
 
     const shared_ptr<Interaction>& find(Body::id_t first, Body::id_t second);
     bool insert(const shared_ptr<Interaction>&);
+    /// Takes an interaction out; the last one moves to its place. linPos is its linIx.
+    bool erase(Body::id_t first, Body::id_t second, int linPos);
+    void eraseNonReal();
     void requestErase(Body::id_t first, Body::id_t second);
     void requestErase(const shared_ptr<Interaction>&);
     void requestErase(Interaction*);

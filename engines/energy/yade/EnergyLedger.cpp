@@ -3,6 +3,7 @@
 
 #include <engines/energy/yade/engine_order.hpp>
 #include <engines/energy/yade/newton_motion.hpp>
+#include <engines/flat/yade/GrainInteractionLoop.hpp>
 #include <laws/validation.hpp>
 #include <laws/yade/GrainPhys.hpp>
 #include <laws/yade/stored_energy.hpp>
@@ -85,6 +86,7 @@ void EnergyLedger::restart() {
 
 void EnergyLedger::action() {
     find_integrator();
+    grains_ = flat_grains(*scene);
     check_scene();
     scene->trackEnergy = true;
     if (lastStep >= 0 && scene->iter != lastStep + 1) {
@@ -138,12 +140,26 @@ void EnergyLedger::check_scene() const {
                                  "must stand before it");
 }
 
-/// Sum over the bodies that the integrator moves; `add(id, body, sums)` runs in several threads.
+bool EnergyLedger::needs_every_body(const Scene& in) const {
+    const bool due = firstStep < 0 || (in.iter - firstStep) % iterPeriod == 0;
+    return due || !integrator_ || integrator_->damping != 0 || in.forces.getPermForceUsed() ||
+           in.dt != lastTimeStep || lastStep + 1 != in.iter;
+}
+
+/// Sum over the bodies that the integrator moves; `add(id, body, sums)` runs in several threads. Where nothing
+/// is known of the grains of the flat path they are left out: they are free and exchange energy with contacts
+/// and gravity only.
 template <class Add>
 ge::StepSums EnergyLedger::sum_over_bodies(const Add& add) {
     const auto& bodies = scene->bodies->body;
     const int count = static_cast<int>(bodies.size());
     ge::StepSums sums;
+    if (grains_ && !grains_->states_are_published()) {
+        for (const Body* body : grains_->others())
+            if (!body->isClumpMember() && (integrator_->mask <= 0 || (body->groupMask & integrator_->mask)))
+                add(body->id, *body, sums);
+        return sums;
+    }
 #pragma omp parallel for schedule(static) reduction(+ : sums) if (count > 1000)
     for (int id = 0; id < count; ++id) {
         const Body* body = bodies[id].get();
@@ -155,6 +171,17 @@ ge::StepSums EnergyLedger::sum_over_bodies(const Add& add) {
             blocked[id] = -1;
     }
     return sums;
+}
+
+/// What the ledger or the flat path remembers; the present motion where neither does.
+EarlierMotion EnergyLedger::earlier_motion(int id, const State& state) const {
+    if (blocked[id] < 0)
+        return {state.vel, state.angVel, static_cast<int>(state.blockedDOFs)};
+    if (grains_ && grains_->is_flat(id)) {
+        const auto& before = grains_->earlier_motion(id);
+        return {before.velocity, before.spin, blocked[id]};
+    }
+    return {velocities[id], spins[id], blocked[id]};
 }
 
 /// Works of this step. A free body with neither damping nor load exchanges energy with contacts and gravity
@@ -169,12 +196,8 @@ void EnergyLedger::book_works(bool count_all) {
     const auto add = [&](int id, const Body& body, ge::StepSums& sums) {
         const State& state = *body.state;
         const int is_blocked = static_cast<int>(state.blockedDOFs);
-        const bool known = blocked[id] >= 0;
         if (every_body || is_blocked || blocked[id] > 0)
-            add_body(body,
-                     {known ? velocities[id] : state.vel, known ? spins[id] : state.angVel,
-                      known ? blocked[id] : is_blocked},
-                     scene->forces, step, sums);
+            add_body(body, earlier_motion(id, state), scene->forces, step, sums);
         velocities[id] = state.vel;
         spins[id] = state.angVel;
         blocked[id] = is_blocked;

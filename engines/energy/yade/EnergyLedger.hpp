@@ -11,7 +11,10 @@
 
 namespace yade {
 
+class FlatGrains;
 class NewtonIntegrator;
+class State;
+struct EarlierMotion;
 
 class EnergyLedger : public GlobalEngine {
 public:
@@ -25,6 +28,10 @@ public:
     void update();
     /// Forgets all books; the balance starts at the next step.
     void restart();
+
+    /// Will it look at every body and contact in the coming step? If not, only at what the flat path does not
+    /// hold.
+    bool needs_every_body(const Scene& in) const;
 
     Real residual();
     Real relativeResidual();
@@ -83,7 +90,10 @@ private:
     shared_ptr<const NewtonIntegrator> integrator_;
     bool forces_are_those_of_last_step_ = false;
 
+    const FlatGrains* grains_ = nullptr; // in this step; null on the general path
+
     void forget();
+    EarlierMotion earlier_motion(int id, const State& state) const;
     void find_integrator();
     void check_scene() const;
     template <class Add>

@@ -32,7 +32,7 @@ void HertzTimeStepper::validate() const {
 }
 
 bool HertzTimeStepper::isActivated() {
-    return active && (criticalStep == 0 || scene->iter % timeStepUpdateInterval == 0);
+    return is_due(scene->iter);
 }
 
 StepLimit HertzTimeStepper::critical(const Scene& in) {

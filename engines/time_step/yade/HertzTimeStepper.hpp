@@ -17,6 +17,10 @@ public:
     virtual ~HertzTimeStepper() = default;
 
     bool isActivated() override;
+    /// Will it act in this step?
+    bool is_due(long step) const {
+        return active && (criticalStep == 0 || step % timeStepUpdateInterval == 0);
+    }
     void computeTimeStep(Scene*) override;
 
     void validate() const;

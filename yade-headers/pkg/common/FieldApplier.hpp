@@ -17,3 +17,5 @@ public:
 };
 
 } // namespace yade
+
+YADE_ABI_STOCK_SERIALIZERS(FieldApplier)

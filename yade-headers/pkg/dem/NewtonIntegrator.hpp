@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Facts: NewtonIntegrator is 432 bytes with these members in this order; its first member lies in the tail of
-// FieldApplier. The size of threadMaxVelocitySq is the number of threads. Only the library makes objects of
-// it. Verified: tests/abi.
+// FieldApplier. The size of threadMaxVelocitySq is the number of threads. The constructor is exported.
+// Verified: tests/abi.
 #pragma once
 
 #include <pkg/common/FieldApplier.hpp>
@@ -35,7 +35,7 @@ public:
     int kinEnergyRotIx;
     int mask;
 
-    NewtonIntegrator() = delete;
+    NewtonIntegrator();
     void action() override;
 
     YADE_ABI_STOCK_CLASS(NewtonIntegrator)
@@ -44,3 +44,5 @@ public:
 };
 
 } // namespace yade
+
+YADE_ABI_STOCK_SERIALIZERS(NewtonIntegrator)

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A scene's grains and their contacts in packed arrays, and the way from YADE's objects to them and back.
+//
+// Spheres and walls of GrainMat that meet by YADE's usual geometry are `flat`: their motion and contacts live
+// here, and YADE's State, forces and interactions are written when someone is about to look (publish). What
+// else is in the scene keeps YADE's own way, contact by contact (general pairs). Every contact has its
+// Interaction in the scene from the step in which it is made, only its numbers may be old.
+//
+//   take_over  YADE's objects -> arrays        after Python or a foreign engine may have changed them
+//   search     sorts the spheres in space, lists the pairs that are near each other
+//   contacts   forces of all contacts, one loop for each contact class and thread
+//   move       leapfrog of the spheres
+//   publish    arrays -> YADE's objects
+#pragma once
+
+#include <engines/flat/neighbours.hpp>
+#include <engines/flat/sphere_motion.hpp>
+#include <engines/flat/yade/flat_kernels.hpp>
+#include <engines/flat/yade/functor_lists.hpp>
+#include <engines/flat/yade/general_pairs.hpp>
+
+#include <core/Body.hpp>
+#include <core/Scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace yade {
+
+class FlatGrains {
+public:
+    /// Spheres [begin, end), their contacts and near pairs: the work of one thread. A pair belongs to the
+    /// lower of its spheres, so that loads of other threads are added to from below only.
+    struct Domain {
+        int begin = 0, end = 0;
+        int loaded_end = 0; // one past the last sphere that its contacts can push
+        vector<FlatContacts> segments;
+        vector<grainfall::flat::Pair> near;
+        vector<grainfall::flat::Load> loads; // of all bodies
+        FlatBook book;
+        vector<vector<size_t>> opened; // by segment
+        vector<size_t> touching;       // of `near`
+
+        FlatContacts& segment(int contact_class);
+    };
+
+    /// Margins of the search: each sphere gets `skin` [m] and what it travels in `horizon` [s].
+    struct Reach {
+        Real skin, horizon;
+    };
+
+    struct Census {
+        long steps = 0, searches = 0, takeovers = 0, publications = 0, born = 0, parted = 0;
+    };
+
+    /// J, what NewtonIntegrator would book for the spheres in this step.
+    struct MotionBook {
+        Real translation = 0, rotation = 0, gravity_work = 0, damping = 0;
+        MotionBook& operator+=(const MotionBook& other) {
+            translation += other.translation;
+            rotation += other.rotation;
+            gravity_work += other.gravity_work;
+            damping += other.damping;
+            return *this;
+        }
+    };
+
+    FunctorLists functors;
+    Census census;
+
+    /// Why this scene cannot run flat; empty if it can.
+    std::string obstacle(const Scene& scene) const;
+
+    void take_over(Scene& scene, int threads);
+    /// Has anything moved further than the last search allowed for?
+    bool must_search() { return moved_ || others_have_moved(); }
+    void search(Reach reach);
+    /// Contact forces of this step. `publish`: YADE's interactions and forces are written too.
+    void contacts(Scene& scene, const FlatTables::Pair& tables, bool publish);
+    /// Motion of the spheres; `scene.forces` are in sync. Returns the highest speed squared [m2/s2].
+    Real move(Scene& scene, const grainfall::flat::StepRules& rules, bool keep_velocities);
+    /// Position, velocity, orientation and spin of the spheres into their State.
+    void publish_states();
+    /// State of the spheres, which someone may have changed, into the arrays.
+    void take_over_states();
+
+    bool is_flat(Body::id_t id) const {
+        return id < static_cast<Body::id_t>(index_of_.size()) && index_of_[static_cast<size_t>(id)] >= 0 &&
+               !bodies_.is_plane(index_of_[static_cast<size_t>(id)]);
+    }
+    /// Velocity and spin before the last step; known where the states after it were published.
+    const grainfall::flat::Motion& earlier_motion(Body::id_t id) const {
+        return earlier_[static_cast<size_t>(index_of_[static_cast<size_t>(id)])];
+    }
+    /// Bodies that YADE's way moves: walls, projectiles, all that is no flat sphere.
+    const vector<Body*>& others() const { return others_; }
+
+    size_t contact_count() const;
+    size_t near_count() const;
+    size_t general_count() const { return general_.size(); }
+    int sphere_count() const { return bodies_.spheres(); }
+
+    const MotionBook& motion_book() const { return motion_book_; }
+    bool states_are_published() const { return states_published_; }
+    Real smallest_radius() const;
+
+private:
+    /// Where a sphere was at the last search, and how far it may go until the next.
+    struct Anchor {
+        Vector3r centre;
+        Real margin;
+    };
+    struct Box {
+        Vector3r low, high;
+        bool meets(const Box& other) const {
+            return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+        }
+        bool holds(const Box& other) const {
+            return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
+        }
+    };
+    /// A body that is no flat sphere: where it was at the last search, and where it may go.
+    struct Roamer {
+        Body* body;
+        Vector3r centre;
+        Box room;
+    };
+    struct Imported {
+        int contact_class;
+        grainfall::flat::ContactState state;
+        grainfall::flat::ContactConstants constants;
+        ContactOwner owner;
+        grainfall::flat::DashpotMemory dashpot;
+    };
+
+    grainfall::flat::Bodies bodies_;
+    vector<Body*> yade_;     // by index
+    vector<int> index_of_;   // by id, -1: not flat
+    vector<Body*> others_;
+    vector<Roamer> roamers_;
+    vector<int> touched_by_others_; // flat spheres in general pairs, by index
+    vector<Anchor> anchors_; // by index
+    vector<grainfall::flat::Motion> earlier_;
+    vector<Domain> domains_;
+    GeneralPairs general_;
+    bool moved_ = true;
+    bool booking_ = false;
+    bool forces_published_ = false;
+    bool states_published_ = false;
+    MotionBook motion_book_;
+    bool same_masks_ = true;
+
+    void take_over_bodies(Scene& scene);
+    void take_over_contacts(Scene& scene, vector<Imported>& contacts);
+    Imported imported(Interaction& contact) const;
+    void read_planes();
+    vector<Imported> collect_contacts();
+    void place_contacts(const vector<Imported>& contacts);
+    void set_anchors(Reach reach);
+    void sort_spheres(const grainfall::flat::CellTable& cells, vector<Imported>& contacts);
+    void list_near(Domain& domain, const grainfall::flat::CellTable& cells) const;
+    int owner_of(const grainfall::flat::ContactState& state) const {
+        return bodies_.is_plane(state.first) ? state.second : std::min(state.first, state.second);
+    }
+    bool near_enough(int first, int second) const;
+    Box box_of(const Body& body);
+    Box room_of(const Body& body, Reach reach);
+    bool others_have_moved();
+    void list_general(const grainfall::flat::CellTable& cells, Reach reach);
+    void add_spheres_near(const Roamer& roamer, const grainfall::flat::CellTable& cells);
+
+    void start_booking(bool booking);
+    void run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,
+             size_t end) const;
+    void run_domain(Domain& domain, const FlatTable& table, Real time_step, bool publish);
+    void find_touching(Domain& domain);
+    void bear(Scene& scene, Domain& domain, const FlatTable& table, bool publish);
+    void bury(Scene& scene, Domain& domain);
+    bool make_contact(Scene& scene, int first, int second, Imported& made);
+    void publish_state(size_t index) const;
+    void publish_forces(Scene& scene);
+    void settle_books();
+    void load_planes(Scene& scene);
+    grainfall::flat::Load take_load(size_t index);
+};
+
+} // namespace yade

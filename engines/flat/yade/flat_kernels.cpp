@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <engines/flat/yade/flat_kernels.hpp>
+#include <laws/yade/contact_rotation.hpp>
+
+#include <laws/bridge/liquid_bridge.hpp>
+#include <laws/yade/LiquidBridge.hpp>
+
+namespace yade {
+namespace flat {
+
+void publish_geometry(const FlatLoop& loop, const gf::ContactState& state, const ContactOwner& owner,
+                      const FlatTouch& at, const gl::ContactGeometry& geometry) {
+    ScGeom& geom = *owner.geom;
+    geom.normal = at.touch.normal;
+    geom.contactPoint = loop.bodies.places[static_cast<size_t>(state.first)].centre + at.lever1;
+    geom.penetrationDepth = at.touch.overlap;
+    geom.radius1 = at.touch.radius1;
+    geom.radius2 = at.touch.radius2;
+    geom.shearInc = geometry.shear_increment;
+    geom.*contact_tilt_member() = geometry.tilt;
+    geom.*contact_twist_member() = geometry.twist;
+}
+
+void publish_force(const gf::ContactState& state, const ContactOwner& owner, const gl::ContactForce& force,
+                   bool has_shear) {
+    GrainPhys& phys = *owner.phys;
+    phys.kn = force.normal_stiffness;
+    phys.ks = force.shear_stiffness;
+    phys.normalForce = force.normal * state.normal;
+    if (has_shear) {
+        phys.shearForce = force.shear;
+        phys.shearElastic = state.shear_force;
+        phys.isSliding = force.sliding;
+    } else {
+        // Another law may have acted before.
+        phys.shearForce = phys.shearElastic = Vector3r::Zero();
+    }
+}
+
+namespace {
+
+namespace gb = grainfall::laws::bridge;
+
+/// The dry contact while the bodies touch, and in the step in which they part, for its books.
+void solid_contact(FlatLoop& loop, FlatContacts& contacts, size_t i, FlatKernel dry, bool touching) {
+    gf::ContactState& state = contacts.states[i];
+    GrainPhys& phys = *contacts.owners[i].phys;
+    const bool was_touching = phys.bridge->separation <= 0 || state.shear_stiffness > 0;
+    if (!touching && !was_touching)
+        return;
+    const size_t opened = loop.opened.size();
+    dry(loop, contacts, i, i + 1);
+    if (loop.opened.size() == opened)
+        return;
+    loop.opened.pop_back();
+    phys.part();
+    state.shear_force = Vector3r::Zero();
+    state.shear_stiffness = 0;
+    if (!contacts.dashpots.empty())
+        contacts.dashpots[i] = gf::DashpotMemory();
+}
+
+template <class Form, class Film, class Energy>
+void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+        gf::ContactState& state = contacts.states[i];
+        const FlatTouch at = touch_of(loop.bodies, state);
+        solid_contact(loop, contacts, i, dry, at.touch.overlap >= 0);
+        const gf::Motion& motion1 = loop.bodies.motions[static_cast<size_t>(state.first)];
+        const gf::Motion& motion2 = loop.bodies.motions[static_cast<size_t>(state.second)];
+        const Real normal_velocity = (motion2.velocity - motion1.velocity).dot(at.touch.normal);
+
+        LiquidBridge& bridge = *contacts.owners[i].phys->bridge;
+        gb::BridgeMemory memory = bridge.memory();
+        Energy book;
+        const gb::BridgeState held = gb::LiquidBridge<Form, Film, Energy>::step(
+            -at.touch.overlap, normal_velocity, loop.time_step, bridge.parameters(), memory, book);
+        bridge.remember(memory);
+        if constexpr (Energy::active) {
+            loop.book.viscous += book.viscous;
+            loop.book.bridge += book.rupture;
+        }
+        state.normal = at.touch.normal;
+        if (held == gb::BridgeState::holding)
+            apply(loop, state, at, bridge.normal_force() * at.touch.normal);
+        else if (held == gb::BridgeState::ended)
+            loop.opened.push_back(i);
+        if (loop.publish && at.touch.overlap < 0) {
+            gl::ContactGeometry geometry;
+            gl::put_motion(geometry, at.touch, motion2.velocity - motion1.velocity, motion1.spin,
+                           motion2.spin, loop.time_step);
+            publish_geometry(loop, state, contacts.owners[i], at, geometry);
+        }
+    }
+}
+
+} // namespace
+
+template <class Energy>
+static void run_wet_class(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begin, size_t end) {
+    using namespace gb;
+    switch (ContactClass(contacts.contact_class).bridge()) {
+    case BridgeKind::none:
+        return;
+    case BridgeKind::willett:
+        return run_wet<WillettNumeric, NoFilm, Energy>(loop, contacts, dry, begin, end);
+    case BridgeKind::willett_closed:
+        return run_wet<WillettClosed, NoFilm, Energy>(loop, contacts, dry, begin, end);
+    case BridgeKind::willett_viscous:
+        return run_wet<WillettNumeric, SqueezeFilm, Energy>(loop, contacts, dry, begin, end);
+    case BridgeKind::willett_closed_viscous:
+        return run_wet<WillettClosed, SqueezeFilm, Energy>(loop, contacts, dry, begin, end);
+    }
+}
+
+} // namespace flat
+
+void run_wet_flat(const FlatTable& table, bool booking, FlatLoop& loop, FlatContacts& contacts, size_t begin,
+                  size_t end) {
+    const int dry_class = ContactClass(contacts.contact_class).dry().index;
+    const FlatKernel dry = table[static_cast<size_t>(dry_class)];
+    if (booking)
+        flat::run_wet_class<grainfall::laws::bridge::BridgeBook>(loop, contacts, dry, begin, end);
+    else
+        flat::run_wet_class<grainfall::laws::NoEnergy>(loop, contacts, dry, begin, end);
+}
+
+} // namespace yade

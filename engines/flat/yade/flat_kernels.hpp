@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The contact loop over packed arrays: geometry, the law's kernel, forces. One loop for each contact class.
+#pragma once
+
+#include <engines/flat/contacts.hpp>
+
+#include <laws/hertz_mindlin.hpp>
+#include <laws/sphere_kinematics.hpp>
+#include <laws/yade/ContactClass.hpp>
+#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/kernel_table.hpp>
+
+#include <core/Interaction.hpp>
+#include <pkg/dem/ScGeom.hpp>
+
+#include <array>
+#include <vector>
+
+namespace yade {
+
+/// YADE's objects of a contact; the scene's container keeps them alive.
+struct ContactOwner {
+    Interaction* contact;
+    ScGeom* geom;
+    GrainPhys* phys;
+};
+using FlatContacts = grainfall::flat::Segment<ContactOwner>;
+
+/// J that went in the steps of one thread; as in Law2_ScGeom_GrainPhys_HertzMindlin::book().
+struct FlatBook {
+    Real friction = 0, viscous = 0, rescaling = 0, kinematics = 0, bridge = 0;
+};
+
+struct FlatLoop {
+    const grainfall::flat::Bodies& bodies;
+    grainfall::flat::Load* loads; // of all bodies, for this thread
+    Real time_step;
+    bool publish;                // write YADE's objects too
+    FlatBook& book;
+    std::vector<size_t>& opened; // contacts whose bodies have parted, ascending
+};
+
+using FlatKernel = void (*)(FlatLoop&, FlatContacts&, size_t begin, size_t end);
+/// One loop for each dry class.
+using FlatTable = std::array<FlatKernel, ContactClass::dry_count>;
+
+/// As KernelTables, for the loops.
+struct FlatTables {
+    struct Pair {
+        FlatTable plain, booking;
+    };
+    Pair hertz, report;
+};
+const FlatTables& incremental_flat_kernels();
+const FlatTables& partial_slip_flat_kernels();
+const FlatTables& secant_flat_kernels();
+const FlatTables& report_flat_kernels();
+const FlatTables& frictionless_flat_kernels();
+
+/// Contacts with a liquid bridge; the dry part goes through the table.
+void run_wet_flat(const FlatTable& table, bool booking, FlatLoop& loop, FlatContacts& contacts, size_t begin,
+                  size_t end);
+
+namespace flat {
+
+namespace gf = grainfall::flat;
+namespace gl = grainfall::laws;
+
+struct FlatTouch {
+    gl::Touch touch;
+    Vector3r lever1, lever2; // from the bodies' centres to the contact point
+};
+
+[[gnu::always_inline]] inline FlatTouch plane_touch(const gf::Bodies& bodies, int plane, int sphere) {
+    const gf::Plane& wall = bodies.plane(plane);
+    const gf::Place& at = bodies.places[static_cast<size_t>(plane)];
+    const gf::Place& ball = bodies.places[static_cast<size_t>(sphere)];
+    const Real distance = ball.centre[wall.axis] - at.centre[wall.axis];
+    FlatTouch result;
+    result.touch.normal = Vector3r::Zero();
+    result.touch.normal[wall.axis] = wall.sense ? wall.sense : distance > 0 ? 1 : -1;
+    result.touch.overlap = ball.radius - std::abs(distance);
+    result.touch.radius1 = at.radius * ball.radius;
+    result.touch.radius2 = ball.radius;
+    result.lever2 = Vector3r::Zero();
+    result.lever2[wall.axis] = -distance;
+    result.lever1 = ball.centre + result.lever2 - at.centre;
+    return result;
+}
+
+[[gnu::always_inline]] inline FlatTouch touch_of(const gf::Bodies& bodies, const gf::ContactState& state) {
+    if (bodies.is_plane(state.first))
+        return plane_touch(bodies, state.first, state.second);
+    const gf::Place& a = bodies.places[static_cast<size_t>(state.first)];
+    const gf::Place& b = bodies.places[static_cast<size_t>(state.second)];
+    const Vector3r branch = b.centre - a.centre;
+    FlatTouch result;
+    result.touch = gl::touch_of_spheres(branch, branch.norm(), a.radius, b.radius);
+    result.lever1 = (a.radius - 0.5 * result.touch.overlap) * result.touch.normal;
+    result.lever2 = (0.5 * result.touch.overlap - b.radius) * result.touch.normal;
+    return result;
+}
+
+[[gnu::always_inline]] inline void apply(const FlatLoop& loop, const gf::ContactState& state,
+                                         const FlatTouch& at, const Vector3r& force_on_2) {
+    gf::Load& load1 = loop.loads[state.first];
+    gf::Load& load2 = loop.loads[state.second];
+    load1.force -= force_on_2;
+    load1.torque -= at.lever1.cross(force_on_2);
+    load2.force += force_on_2;
+    load2.torque += at.lever2.cross(force_on_2);
+}
+
+/// YADE's objects as the general path leaves them after this step.
+void publish_geometry(const FlatLoop& loop, const gf::ContactState& state, const ContactOwner& owner,
+                      const FlatTouch& at, const gl::ContactGeometry& geometry);
+void publish_force(const gf::ContactState& state, const ContactOwner& owner, const gl::ContactForce& force,
+                   bool has_shear);
+
+template <class Friction>
+[[gnu::always_inline]] inline decltype(auto) friction_of(const gf::ContactConstants& constants) {
+    if constexpr (std::is_same_v<Friction, gl::friction::Constant>)
+        return gl::friction::Constant{constants.coefficient};
+    else if constexpr (std::is_same_v<Friction, gl::friction::Any>)
+        return (*constants.curve);
+    else
+        return (*std::get_if<Friction>(&constants.curve->curve()));
+}
+
+/// The slip history stays with YADE's object.
+inline void recall_history(const ContactOwner&, gl::ContactMemory&) {}
+inline void recall_history(const ContactOwner& owner, gl::PartialSlipMemory& memory) {
+    if (owner.phys->partialSlip)
+        owner.phys->partialSlip->recall(memory.history);
+}
+inline void keep_history(const ContactOwner&, const gl::ContactMemory&) {}
+inline void keep_history(const ContactOwner& owner, const gl::PartialSlipMemory& memory) {
+    if (!owner.phys->partialSlip)
+        owner.phys->partialSlip = shared_ptr<PartialSlip>(new PartialSlip);
+    owner.phys->partialSlip->keep(memory.history);
+}
+
+template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
+    using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
+    const gf::Bodies& bodies = loop.bodies;
+    for (size_t i = begin; i < end; ++i) {
+        gf::ContactState& state = contacts.states[i];
+        const gf::ContactConstants& constants = contacts.constants[i];
+        const FlatTouch at = touch_of(bodies, state);
+        typename ContactLaw::Memory memory;
+        memory.shear_force = state.shear_force;
+        memory.shear_stiffness = state.shear_stiffness;
+        if (at.touch.overlap < 0) {
+            if constexpr (Energy::active && Tangential::active) {
+                recall_history(contacts.owners[i], memory);
+                loop.book.rescaling += gl::shear_elastic_energy(memory);
+            }
+            loop.opened.push_back(i);
+            continue;
+        }
+        const gf::Motion& motion1 = bodies.motions[static_cast<size_t>(state.first)];
+        const gf::Motion& motion2 = bodies.motions[static_cast<size_t>(state.second)];
+        const Vector3r velocity = motion2.velocity - motion1.velocity;
+        gl::ContactGeometry geometry;
+        gl::put_motion(geometry, at.touch, velocity, motion1.spin, motion2.spin, loop.time_step);
+        if (state.shear_stiffness > 0)
+            gl::put_rotation(geometry, state.normal, motion1.spin, motion2.spin);
+        recall_history(contacts.owners[i], memory);
+
+        Energy book;
+        Vector3r shear_before;
+        if constexpr (Energy::active) {
+            book.normal_viscous_force = contacts.dashpots[i].normal;
+            book.shear_viscous_force = contacts.dashpots[i].shear;
+            shear_before =
+                gl::rotated_with_contact(memory.shear_force + contacts.dashpots[i].shear, geometry);
+        }
+        const gl::ContactForce force =
+            ContactLaw::step(geometry, constants.parameters, friction_of<Friction>(constants), memory, book);
+        if constexpr (Energy::active) {
+            contacts.dashpots[i] = {book.normal_viscous_force, book.shear_viscous_force};
+            loop.book.friction += book.friction;
+            loop.book.viscous += book.viscous;
+            loop.book.rescaling += book.rescaling;
+            if constexpr (Tangential::active) {
+                // Forces lie in the contact plane: the normal part of the velocity does not count.
+                const Vector3r at_contact =
+                    velocity + motion2.spin.cross(at.lever2) - motion1.spin.cross(at.lever1);
+                const Vector3r excess = geometry.shear_increment - loop.time_step * at_contact;
+                loop.book.kinematics -= 0.5 * (shear_before + force.shear).dot(excess);
+            }
+        }
+        state.normal = at.touch.normal;
+        if constexpr (Tangential::active) {
+            state.shear_force = memory.shear_force;
+            state.shear_stiffness = memory.shear_stiffness;
+            keep_history(contacts.owners[i], memory);
+        }
+        apply(loop, state, at, force.normal * at.touch.normal + force.shear);
+        if (loop.publish) {
+            publish_geometry(loop, state, contacts.owners[i], at, geometry);
+            publish_force(state, contacts.owners[i], force, Tangential::active);
+        }
+    }
+}
+
+struct RunMaker {
+    template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+    static FlatKernel kernel() {
+        return &run<Normal, Tangential, Damping, Friction, Energy>;
+    }
+};
+
+template <class Normal, class Tangential, class Energy>
+FlatTable make_table() {
+    FlatTable table{};
+    DryKernels<RunMaker, Normal, Tangential, Energy, FlatTable>::put(table);
+    return table;
+}
+
+template <class Tangential>
+const FlatTables& make_tables() {
+    static const FlatTables tables{
+        {make_table<gl::Hertz, Tangential, gl::NoEnergy>(),
+         make_table<gl::Hertz, Tangential, gl::DissipationBook>()},
+        {make_table<gl::ReportNormal, Tangential, gl::NoEnergy>(),
+         make_table<gl::ReportNormal, Tangential, gl::DissipationBook>()}};
+    return tables;
+}
+
+} // namespace flat
+} // namespace yade

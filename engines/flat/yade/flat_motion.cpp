@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Motion of the spheres, and what of it YADE gets to see.
+#include <engines/flat/yade/FlatGrains.hpp>
+
+#include <core/State.hpp>
+
+#include <limits>
+
+namespace yade {
+
+namespace gf = grainfall::flat;
+
+namespace {
+
+#pragma omp declare reduction(+ : FlatGrains::MotionBook : omp_out += omp_in)
+
+/// As NewtonIntegrator books it: before the step, with the velocities of the step before.
+void book(FlatGrains::MotionBook& sums, const gf::Inertia& inertia, const gf::Motion& motion,
+          const Vector3r& force, const Vector3r& torque, const gf::StepRules& rules) {
+    sums.translation += 0.5 * inertia.mass * motion.velocity.squaredNorm();
+    sums.rotation += 0.5 * motion.spin.dot(inertia.inertia.cwiseProduct(motion.spin));
+    sums.gravity_work -= rules.gravity.dot(motion.velocity) * inertia.mass * rules.time_step;
+    if (rules.damping == 0 || !inertia.damped)
+        return;
+    const Vector3r push = force + inertia.mass * rules.gravity;
+    sums.damping += (motion.velocity.cwiseAbs().dot(push.cwiseAbs()) +
+                     motion.spin.cwiseAbs().dot(torque.cwiseAbs())) *
+                    rules.damping * rules.time_step;
+}
+
+} // namespace
+
+Real FlatGrains::move(Scene& scene, const gf::StepRules& rules, bool keep_velocities) {
+    ForceContainer& forces = scene.forces;
+    // Forces that stand with YADE: all of them after publishing, else those of general pairs.
+    const bool all_with_yade = forces_published_ || forces.getPermForceUsed();
+    if (!all_with_yade)
+        for (const int i : touched_by_others_) {
+            const auto at = static_cast<size_t>(i);
+            domains_[0].loads[at].force += forces.getForce(bodies_.ids[at]);
+            domains_[0].loads[at].torque += forces.getTorque(bodies_.ids[at]);
+            domains_[0].loaded_end = std::max(domains_[0].loaded_end, i + 1);
+        }
+    if (keep_velocities)
+        earlier_ = bodies_.motions;
+    const bool books = scene.trackEnergy;
+    const int spheres = bodies_.spheres();
+    MotionBook sums;
+    Real fastest = 0;
+    bool moved = false;
+#pragma omp parallel for schedule(static) num_threads(static_cast<int>(domains_.size()))                     \
+    reduction(+ : sums) reduction(max : fastest) reduction(|| : moved)
+    for (int i = 0; i < spheres; ++i) {
+        const auto at = static_cast<size_t>(i);
+        gf::Load load = take_load(at);
+        if (all_with_yade) {
+            load.force += forces.getForce(bodies_.ids[at]);
+            load.torque += forces.getTorque(bodies_.ids[at]);
+        }
+        if (books)
+            book(sums, bodies_.inertias[at], bodies_.motions[at], load.force, load.torque, rules);
+        gf::advance(bodies_, at, load.force, load.torque, rules);
+        fastest = std::max(fastest, bodies_.motions[at].velocity.squaredNorm());
+        const Anchor& anchor = anchors_[at];
+        moved = moved ||
+                !((bodies_.places[at].centre - anchor.centre).squaredNorm() <= anchor.margin * anchor.margin);
+    }
+    motion_book_ = sums;
+    moved_ = moved;
+    forces_published_ = states_published_ = false;
+    return fastest;
+}
+
+void FlatGrains::publish_state(size_t at) const {
+    State& state = *yade_[at]->state;
+    state.pos = bodies_.places[at].centre;
+    state.vel = bodies_.motions[at].velocity;
+    state.angVel = bodies_.motions[at].spin;
+    state.ori = bodies_.orientations[at];
+}
+
+void FlatGrains::publish_states() {
+    ++census.publications;
+    states_published_ = true;
+#pragma omp parallel for schedule(static) num_threads(static_cast<int>(domains_.size()))
+    for (int i = 0; i < bodies_.spheres(); ++i)
+        publish_state(static_cast<size_t>(i));
+}
+
+Real FlatGrains::smallest_radius() const {
+    Real least = std::numeric_limits<Real>::infinity();
+    for (int i = 0; i < bodies_.spheres(); ++i)
+        least = std::min(least, bodies_.places[static_cast<size_t>(i)].radius);
+    return std::isfinite(least) ? least : 0;
+}
+
+size_t FlatGrains::contact_count() const {
+    size_t count = 0;
+    for (const Domain& domain : domains_)
+        for (const FlatContacts& segment : domain.segments)
+            count += segment.size();
+    return count;
+}
+
+size_t FlatGrains::near_count() const {
+    size_t count = 0;
+    for (const Domain& domain : domains_)
+        count += domain.near.size();
+    return count;
+}
+
+} // namespace yade

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Sorts the spheres in space and lists the pairs that are near each other.
+#include <engines/flat/yade/FlatGrains.hpp>
+
+#include <core/Aabb.hpp>
+#include <core/State.hpp>
+
+namespace yade {
+
+namespace gf = grainfall::flat;
+
+namespace {
+
+template <class Values>
+void reorder(Values& values, const vector<int>& order) {
+    Values sorted;
+    sorted.reserve(values.size());
+    for (const int from : order)
+        sorted.push_back(values[static_cast<size_t>(from)]);
+    for (size_t i = order.size(); i < values.size(); ++i)
+        sorted.push_back(values[i]);
+    values.swap(sorted);
+}
+
+} // namespace
+
+FlatContacts& FlatGrains::Domain::segment(int contact_class) {
+    for (FlatContacts& known : segments)
+        if (known.contact_class == contact_class)
+            return known;
+    segments.emplace_back();
+    segments.back().contact_class = contact_class;
+    return segments.back();
+}
+
+void FlatGrains::search(Reach reach) {
+    ++census.searches;
+    read_planes();
+    vector<Imported> contacts = collect_contacts();
+    set_anchors(reach);
+    Real farthest = 0;
+    for (int i = 0; i < bodies_.spheres(); ++i) {
+        const auto at = static_cast<size_t>(i);
+        farthest = std::max(farthest, bodies_.places[at].radius + anchors_[at].margin);
+    }
+    const gf::CellTable cells(bodies_.places, bodies_.spheres(), farthest);
+    sort_spheres(cells, contacts);
+    place_contacts(contacts);
+
+    const int threads = static_cast<int>(domains_.size());
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    for (int d = 0; d < threads; ++d)
+        list_near(domains_[static_cast<size_t>(d)], cells);
+    list_general(cells, reach);
+    moved_ = false;
+}
+
+vector<FlatGrains::Imported> FlatGrains::collect_contacts() {
+    vector<Imported> contacts;
+    for (Domain& domain : domains_) {
+        for (FlatContacts& segment : domain.segments) {
+            for (size_t i = 0; i < segment.size(); ++i) {
+                contacts.push_back({segment.contact_class, segment.states[i], segment.constants[i],
+                                    segment.owners[i],
+                                    booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
+            }
+        }
+        domain.segments.clear();
+        domain.opened.clear();
+    }
+    return contacts;
+}
+
+/// A sphere at rest gets the skin, a moving one what it travels besides; no more than its radius, or a few
+/// fast grains would be neighbours of everything.
+void FlatGrains::set_anchors(Reach reach) {
+    anchors_.resize(yade_.size());
+    for (size_t i = 0; i < yade_.size(); ++i) {
+        const Real travel = bodies_.motions[i].velocity.norm() * reach.horizon;
+        const bool plane = bodies_.is_plane(static_cast<int>(i));
+        const Real most = plane ? 20 * reach.skin : bodies_.places[i].radius;
+        anchors_[i] = {bodies_.places[i].centre, reach.skin + std::min(travel, most)};
+    }
+}
+
+void FlatGrains::sort_spheres(const gf::CellTable& cells, vector<Imported>& contacts) {
+    reorder(bodies_.places, cells.order);
+    reorder(bodies_.motions, cells.order);
+    reorder(bodies_.ids, cells.order);
+    reorder(bodies_.orientations, cells.order);
+    reorder(bodies_.inertias, cells.order);
+    reorder(yade_, cells.order);
+    reorder(anchors_, cells.order);
+    earlier_.assign(bodies_.motions.begin(), bodies_.motions.end());
+    vector<int> place_of(yade_.size());
+    for (size_t i = 0; i < yade_.size(); ++i) {
+        place_of[i < cells.order.size() ? static_cast<size_t>(cells.order[i]) : i] = static_cast<int>(i);
+        index_of_[static_cast<size_t>(bodies_.ids[i])] = static_cast<int>(i);
+    }
+    for (Imported& contact : contacts) {
+        contact.state.first = place_of[static_cast<size_t>(contact.state.first)];
+        contact.state.second = place_of[static_cast<size_t>(contact.state.second)];
+    }
+}
+
+/// Shares the spheres among the threads and the contacts with them, in the order of their lower spheres.
+void FlatGrains::place_contacts(const vector<Imported>& contacts) {
+    const int count = bodies_.spheres(), threads = static_cast<int>(domains_.size());
+    for (int d = 0; d < threads; ++d) {
+        Domain& domain = domains_[static_cast<size_t>(d)];
+        domain.begin = static_cast<int>(static_cast<long>(count) * d / threads);
+        domain.end = static_cast<int>(static_cast<long>(count) * (d + 1) / threads);
+        domain.loaded_end = domain.end;
+        domain.loads.assign(yade_.size(), gf::Load());
+        domain.near.clear();
+    }
+    vector<size_t> order(contacts.size());
+    for (size_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    const auto key = [&](size_t i) {
+        const gf::ContactState& state = contacts[i].state;
+        return std::make_pair(owner_of(state), state.first + state.second);
+    };
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+    size_t d = 0;
+    for (const size_t i : order) {
+        const Imported& contact = contacts[i];
+        while (owner_of(contact.state) >= domains_[d].end)
+            ++d;
+        domains_[d].segment(contact.contact_class)
+            .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
+        const int higher = std::max(contact.state.first, contact.state.second);
+        if (!bodies_.is_plane(higher))
+            domains_[d].loaded_end = std::max(domains_[d].loaded_end, higher + 1);
+    }
+}
+
+bool FlatGrains::near_enough(int first, int second) const {
+    const auto a = static_cast<size_t>(first), b = static_cast<size_t>(second);
+    const Real margin = anchors_[a].margin + anchors_[b].margin;
+    if (bodies_.is_plane(first)) {
+        if (gf::gap(bodies_.plane(first), bodies_.places[a], bodies_.places[b]) >= margin)
+            return false;
+    } else {
+        const Real range = bodies_.places[a].radius + bodies_.places[b].radius + margin;
+        if ((bodies_.places[a].centre - bodies_.places[b].centre).squaredNorm() >= range * range)
+            return false;
+    }
+    return same_masks_ || may_collide(*yade_[a], *yade_[b], functors.avoid_self_interaction);
+}
+
+void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
+    // Partners of each sphere that are in contact with it already.
+    vector<vector<std::pair<int, int>>> partners(domain.segments.size());
+    for (size_t s = 0; s < domain.segments.size(); ++s)
+        for (const gf::ContactState& state : domain.segments[s].states) {
+            const int owner = owner_of(state);
+            partners[s].emplace_back(owner, state.first + state.second - owner);
+        }
+    vector<size_t> next(partners.size(), 0);
+    vector<int> touches(yade_.size(), -1);
+    for (int i = domain.begin; i < domain.end; ++i) {
+        for (size_t s = 0; s < partners.size(); ++s)
+            for (; next[s] < partners[s].size() && partners[s][next[s]].first == i; ++next[s])
+                touches[static_cast<size_t>(partners[s][next[s]].second)] = i;
+        const auto consider = [&](int first, int second, int other) {
+            if (touches[static_cast<size_t>(other)] != i && near_enough(first, second))
+                domain.near.push_back({first, second});
+        };
+        for (int plane = bodies_.spheres(); plane < bodies_.count(); ++plane)
+            consider(plane, i, plane);
+        cells.grid.around(bodies_.places[static_cast<size_t>(i)].centre, [&](int from, int to) {
+            const int begin = std::max(cells.starts[static_cast<size_t>(from)], i + 1);
+            const int end = cells.starts[static_cast<size_t>(to)];
+            for (int j = begin; j < end; ++j)
+                consider(i, j, j);
+        });
+    }
+    for (const gf::Pair& pair : domain.near)
+        domain.loaded_end = std::max(domain.loaded_end, pair.second + 1);
+}
+
+FlatGrains::Box FlatGrains::box_of(const Body& body) {
+    const auto functor = functors.bound(*body.shape);
+    shared_ptr<Bound>& bound = const_cast<Body&>(body).bound;
+    if (functor)
+        functor->go(body.shape, bound, body.state->se3, &body);
+    if (!functor || !bound)
+        return {Vector3r::Constant(NaN), Vector3r::Constant(NaN)}; // meets nothing
+    return {bound->min, bound->max};
+}
+
+/// The box of a body that is no flat sphere, with room for what it travels until the next search.
+FlatGrains::Box FlatGrains::room_of(const Body& body, Reach reach) {
+    Box box = box_of(body);
+    const Vector3r extent = box.high - box.low;
+    const Real arm = extent.allFinite() ? 0.5 * extent.norm() : 0;
+    const Real speed = body.state->vel.norm() + arm * body.state->angVel.norm();
+    const Vector3r room = Vector3r::Constant(reach.skin + std::min(speed * reach.horizon, 20 * reach.skin));
+    return {box.low - room, box.high + room};
+}
+
+/// Has a body that is no flat sphere left the room that it had at the last search?
+bool FlatGrains::others_have_moved() {
+    for (const Roamer& roamer : roamers_) {
+        const State& state = *roamer.body->state;
+        const bool rests = state.vel == Vector3r::Zero() && state.angVel == Vector3r::Zero() &&
+                           state.pos == roamer.centre;
+        if (!rests && !roamer.room.holds(box_of(*roamer.body)))
+            return true;
+    }
+    return false;
+}
+
+void FlatGrains::list_general(const gf::CellTable& cells, Reach reach) {
+    general_.forget_those_apart();
+    roamers_.clear();
+    for (Body* body : others_)
+        if (body->shape && body->isBounded())
+            roamers_.push_back({body, body->state->pos, room_of(*body, reach)});
+    for (size_t a = 0; a < roamers_.size(); ++a) {
+        Body& body = *roamers_[a].body;
+        for (size_t b = a + 1; b < roamers_.size(); ++b)
+            if (roamers_[a].room.meets(roamers_[b].room))
+                general_.add(body, *roamers_[b].body, functors);
+        if (index_of_[static_cast<size_t>(body.id)] < 0) // else a plane, whose pairs with spheres are flat
+            add_spheres_near(roamers_[a], cells);
+    }
+    // Spheres that take part: their State is written before, their forces read after.
+    touched_by_others_.clear();
+    for (const GeneralPair& pair : general_.all())
+        for (const Body* body : {pair.first, pair.second})
+            if (is_flat(body->id))
+                touched_by_others_.push_back(index_of_[static_cast<size_t>(body->id)]);
+    std::sort(touched_by_others_.begin(), touched_by_others_.end());
+    touched_by_others_.erase(std::unique(touched_by_others_.begin(), touched_by_others_.end()),
+                             touched_by_others_.end());
+}
+
+void FlatGrains::add_spheres_near(const Roamer& roamer, const gf::CellTable& cells) {
+    const auto visit = [&](int from, int to) {
+        const int end = cells.starts[static_cast<size_t>(to)];
+        for (int i = cells.starts[static_cast<size_t>(from)]; i < end; ++i) {
+            const auto at = static_cast<size_t>(i);
+            const Vector3r reach = Vector3r::Constant(bodies_.places[at].radius + anchors_[at].margin);
+            const Vector3r& centre = bodies_.places[at].centre;
+            if (roamer.room.meets({centre - reach, centre + reach}))
+                general_.add(*roamer.body, *yade_[at], functors);
+        }
+    };
+    cells.grid.inside(roamer.room.low, roamer.room.high, visit);
+}
+
+} // namespace yade

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// YADE's objects -> packed arrays.
+#include <engines/flat/yade/FlatGrains.hpp>
+
+#include <laws/yade/GrainMat.hpp>
+#include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
+
+#include <core/Cell.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/State.hpp>
+#include <pkg/common/Sphere.hpp>
+#include <pkg/common/Wall.hpp>
+
+namespace yade {
+
+namespace gf = grainfall::flat;
+
+namespace {
+
+bool is_grain(const Body& body) {
+    return body.isStandalone() && dynamic_cast<const GrainMat*>(body.material.get());
+}
+bool is_flat_sphere(const Body& body) {
+    return is_grain(body) && !body.isAspherical() && body.shape && body.shape->getClassName() == "Sphere";
+}
+bool is_flat_plane(const Body& body) {
+    return is_grain(body) && body.shape && body.shape->getClassName() == "Wall";
+}
+
+} // namespace
+
+std::string FlatGrains::obstacle(const Scene& scene) const {
+    if (scene.isPeriodic)
+        return "the cell is periodic";
+    size_t others = 0;
+    for (const auto& body : scene.bodies->body) {
+        if (!body)
+            continue;
+        if (!body->isStandalone())
+            return "there are clumps";
+        if (!is_flat_sphere(*body) && !is_flat_plane(*body))
+            ++others;
+    }
+    if (others > 500)
+        return std::to_string(others) + " bodies are neither spheres nor walls of GrainMat";
+    return functors.obstacle();
+}
+
+void FlatGrains::take_over(Scene& scene, int threads) {
+    ++census.takeovers;
+    booking_ = scene.trackEnergy;
+    domains_.clear();
+    domains_.resize(static_cast<size_t>(threads));
+    take_over_bodies(scene);
+    scene.interactions->eraseNonReal();
+    vector<Imported> contacts;
+    take_over_contacts(scene, contacts);
+    // Not yet in space: the first domain holds all until the search.
+    domains_[0].end = bodies_.spheres();
+    for (const Imported& contact : contacts)
+        domains_[0].segment(contact.contact_class)
+            .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
+    moved_ = true;
+    forces_published_ = false;
+}
+
+void FlatGrains::take_over_bodies(Scene& scene) {
+    bodies_ = gf::Bodies();
+    yade_.clear();
+    others_.clear();
+    const auto& all = scene.bodies->body;
+    index_of_.assign(all.size(), -1);
+    vector<Body*> planes;
+    same_masks_ = functors.avoid_self_interaction == 0;
+    for (const auto& body : all) {
+        if (!body || !body->shape)
+            continue;
+        if (!is_flat_sphere(*body)) {
+            others_.push_back(body.get());
+            if (is_flat_plane(*body))
+                planes.push_back(body.get());
+            continue;
+        }
+        same_masks_ = same_masks_ && body->groupMask == 1;
+        const State& state = *body->state;
+        index_of_[static_cast<size_t>(body->id)] = static_cast<int>(yade_.size());
+        yade_.push_back(body.get());
+        bodies_.ids.push_back(body->id);
+        bodies_.places.push_back({state.pos, static_cast<const Sphere&>(*body->shape).radius});
+        bodies_.motions.push_back({state.vel, state.angVel});
+        bodies_.orientations.push_back(state.ori);
+        bodies_.inertias.push_back({state.mass, state.inertia, state.blockedDOFs, state.isDamped});
+    }
+    for (Body* body : planes) {
+        const Wall& wall = static_cast<const Wall&>(*body->shape);
+        same_masks_ = same_masks_ && body->groupMask == 1;
+        index_of_[static_cast<size_t>(body->id)] = static_cast<int>(yade_.size());
+        yade_.push_back(body);
+        bodies_.ids.push_back(body->id);
+        bodies_.places.push_back({body->state->pos, 1});
+        bodies_.motions.push_back({body->state->vel, body->state->angVel});
+        bodies_.planes.push_back({wall.axis, wall.sense});
+    }
+}
+
+void FlatGrains::take_over_contacts(Scene& scene, vector<Imported>& contacts) {
+    general_.clear();
+    InteractionContainer& container = *scene.interactions;
+    for (size_t i = 0; i < container.size(); ++i) {
+        const shared_ptr<Interaction>& contact = container[i];
+        const int first = index_of_[static_cast<size_t>(contact->getId1())];
+        const int second = index_of_[static_cast<size_t>(contact->getId2())];
+        const bool ours = first >= 0 && second >= 0 && !bodies_.is_plane(second) &&
+                          dynamic_cast<GrainPhys*>(contact->phys.get()) &&
+                          dynamic_cast<ScGeom*>(contact->geom.get());
+        if (ours)
+            contacts.push_back(imported(*contact));
+        else
+            general_.adopt(contact, scene, functors);
+    }
+    // The container's order depends on the scene's history; this one does not.
+    std::sort(contacts.begin(), contacts.end(), [](const Imported& a, const Imported& b) {
+        return std::make_pair(a.state.first, a.state.second) < std::make_pair(b.state.first, b.state.second);
+    });
+}
+
+FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
+    auto& phys = static_cast<GrainPhys&>(*contact.phys);
+    auto& geom = static_cast<ScGeom&>(*contact.geom);
+    Imported result;
+    result.contact_class = phys.contactClass;
+    result.owner = {&contact, &geom, &phys};
+    result.state.first = index_of_[static_cast<size_t>(contact.getId1())];
+    result.state.second = index_of_[static_cast<size_t>(contact.getId2())];
+    result.state.normal = geom.normal;
+    result.state.shear_force = phys.shearElastic;
+    result.state.shear_stiffness = phys.ks;
+    result.constants.parameters = {phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
+                                   phys.shearDamping};
+    if (ContactClass(phys.contactClass).friction() == FrictionForm::constant)
+        result.constants.coefficient = phys.tangensOfFrictionAngle;
+    else
+        result.constants.curve = &phys.curve();
+    // The dashpots' forces follow from what the contact keeps: the force applied less its elastic part.
+    if (phys.normalCoefficient > 0) {
+        const Real factor = functors.grain_law->normalLaw == "report" ? 0.5 : 1;
+        const Real root_overlap = phys.kn / (1.5 * factor * phys.normalCoefficient);
+        const Real elastic = 2. / 3 * phys.kn * root_overlap * root_overlap;
+        result.dashpot.normal = phys.normalForce.dot(geom.normal) - elastic;
+        result.dashpot.shear = phys.shearForce - phys.shearElastic;
+    }
+    return result;
+}
+
+void FlatGrains::take_over_states() {
+#pragma omp parallel for schedule(static) if (bodies_.spheres() > 1000)
+    for (int i = 0; i < bodies_.spheres(); ++i) {
+        const auto at = static_cast<size_t>(i);
+        const State& state = *yade_[at]->state;
+        bodies_.places[at].centre = state.pos;
+        bodies_.motions[at] = {state.vel, state.angVel};
+        bodies_.orientations[at] = state.ori;
+        bodies_.inertias[at] = {state.mass, state.inertia, state.blockedDOFs, state.isDamped};
+    }
+}
+
+void FlatGrains::read_planes() {
+    for (size_t i = static_cast<size_t>(bodies_.spheres()); i < yade_.size(); ++i) {
+        const State& state = *yade_[i]->state;
+        bodies_.places[i].centre = state.pos;
+        bodies_.motions[i] = {state.vel, state.angVel};
+    }
+}
+
+} // namespace yade

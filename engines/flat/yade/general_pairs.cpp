@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <engines/flat/yade/general_pairs.hpp>
+
+#include <core/InteractionContainer.hpp>
+#include <core/State.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace yade {
+
+bool may_collide(const Body& first, const Body& second, int avoid_self_interaction) {
+    const bool share_mask = first.groupMask & second.groupMask;
+    const bool avoid = first.groupMask == second.groupMask && (first.groupMask & avoid_self_interaction);
+    return share_mask && !avoid;
+}
+
+namespace {
+
+std::pair<Body::id_t, Body::id_t> key(const Body& first, const Body& second) {
+    return std::minmax(first.id, second.id);
+}
+
+[[noreturn]] void no_physics(const Body& first, const Body& second) {
+    throw std::runtime_error("no Ip2 functor for " + first.material->getClassName() + " and " +
+                             second.material->getClassName());
+}
+
+} // namespace
+
+void GeneralPairs::adopt(const shared_ptr<Interaction>& contact, Scene& scene, FunctorLists& functors) {
+    Body& first = *Body::byId(contact->getId1(), &scene);
+    Body& second = *Body::byId(contact->getId2(), &scene);
+    const Found<IGeomFunctor> found = functors.geometry(*first.shape, *second.shape);
+    if (!found.functor || found.swapped)
+        return; // what made it is gone: it stays as it is
+    places_[key(first, second)] = pairs_.size();
+    pairs_.push_back({contact, &first, &second, found.functor});
+}
+
+void GeneralPairs::forget_those_apart() {
+    const auto apart = [](const GeneralPair& pair) { return !pair.contact->isReal(); };
+    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), apart), pairs_.end());
+    places_.clear();
+    for (size_t i = 0; i < pairs_.size(); ++i)
+        places_[key(*pairs_[i].first, *pairs_[i].second)] = i;
+}
+
+void GeneralPairs::add(Body& one, Body& other, FunctorLists& functors) {
+    if (places_.count(key(one, other)))
+        return;
+    Body* first = &one;
+    Body* second = &other;
+    if (first->id > second->id)
+        std::swap(first, second);
+    const Found<IGeomFunctor> found = functors.geometry(*first->shape, *second->shape);
+    if (!found.functor || !may_collide(one, other, functors.avoid_self_interaction))
+        return;
+    if (found.swapped)
+        std::swap(first, second);
+    places_[key(one, other)] = pairs_.size();
+    pairs_.push_back({shared_ptr<Interaction>(new Interaction(first->id, second->id)), first, second,
+                      found.functor});
+}
+
+void GeneralPairs::step(GeneralPair& pair, Scene& scene, FunctorLists& functors) {
+    const shared_ptr<Interaction>& contact = pair.contact;
+    const bool was_real = contact->isReal();
+    pair.change = GeneralPair::Change::none;
+    if (!pair.geometry->go(pair.first->shape, pair.second->shape, *pair.first->state, *pair.second->state,
+                           Vector3r::Zero(), false, contact)) {
+        if (was_real)
+            pair.change = GeneralPair::Change::lost;
+        return;
+    }
+    if (!contact->phys) {
+        const auto physics = functors.physics(*pair.first->material, *pair.second->material);
+        if (!physics)
+            no_physics(*pair.first, *pair.second);
+        contact->functorCache.geom = pair.geometry;
+        contact->functorCache.phys = physics;
+        physics->go(pair.first->material, pair.second->material, contact);
+        contact->iterMadeReal = contact->iterLastSeen = scene.iter;
+        contact->functorCache.constLaw = functors.law(*contact->geom, *contact->phys);
+        if (!contact->functorCache.constLaw)
+            throw std::runtime_error("no Law2 functor for " + contact->geom->getClassName() + " and " +
+                                     contact->phys->getClassName());
+        pair.change = GeneralPair::Change::made;
+    } else if (!contact->functorCache.constLaw) { // adopted from a file
+        contact->functorCache.constLaw = functors.law(*contact->geom, *contact->phys);
+    }
+    if (contact->functorCache.constLaw->go(contact->geom, contact->phys, contact.get()))
+        return;
+    if (was_real) {
+        pair.change = GeneralPair::Change::lost;
+    } else { // touched and let go in one step: it never was in the scene
+        pair.change = GeneralPair::Change::none;
+        contact->reset();
+    }
+}
+
+void GeneralPairs::act(Scene& scene, FunctorLists& functors) {
+    for (GeneralPair& pair : pairs_)
+        step(pair, scene, functors);
+    InteractionContainer& container = *scene.interactions;
+    for (GeneralPair& pair : pairs_) {
+        Interaction& contact = *pair.contact;
+        if (pair.change == GeneralPair::Change::made) {
+            container.insert(pair.contact);
+        } else if (pair.change == GeneralPair::Change::lost) {
+            container.erase(contact.getId1(), contact.getId2(), contact.linIx);
+            contact.reset();
+        } else if (contact.geom && !contact.phys) {
+            contact.reset();
+        }
+    }
+}
+
+} // namespace yade
