@@ -125,6 +125,11 @@ private:
         Vector3r centre;
         Box room;
     };
+    struct Moved {
+        MotionBook book;
+        Real fastest = 0; // m2/s2
+        bool beyond_margin = false;
+    };
     struct Imported {
         int contact_class;
         grainfall::flat::ContactState state;
@@ -138,6 +143,8 @@ private:
     vector<int> index_of_;   // by id, -1: not flat
     vector<Body*> others_;
     vector<Roamer> roamers_;
+    Real giant_radius_ = 0;
+    vector<int> giants_;
     vector<int> touched_by_others_; // flat spheres in general pairs, by index
     vector<Anchor> anchors_; // by index
     vector<grainfall::flat::Motion> earlier_;
@@ -157,6 +164,10 @@ private:
     vector<Imported> collect_contacts();
     void place_contacts(const vector<Imported>& contacts);
     void set_anchors(Reach reach);
+    void find_giants();
+    bool is_giant(int sphere) const {
+        return bodies_.places[static_cast<size_t>(sphere)].radius > giant_radius_;
+    }
     void sort_spheres(const grainfall::flat::CellTable& cells, vector<Imported>& contacts);
     void list_near(Domain& domain, const grainfall::flat::CellTable& cells) const;
     int owner_of(const grainfall::flat::ContactState& state) const {
@@ -182,6 +193,8 @@ private:
     void settle_books();
     void load_planes(Scene& scene);
     grainfall::flat::Load take_load(size_t index);
+    Moved move_domain(const Domain& domain, Scene& scene, const grainfall::flat::StepRules& rules,
+                      bool all_with_yade);
 };
 
 } // namespace yade

@@ -141,7 +141,7 @@ inline void keep_history(const ContactOwner& owner, const gl::PartialSlipMemory&
 }
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
+inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
     using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
     const gf::Bodies& bodies = loop.bodies;
     for (size_t i = begin; i < end; ++i) {
@@ -205,10 +205,20 @@ void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
     }
 }
 
+/// Left to itself, the compiler keeps some sums of vectors out of line and passes them through memory.
+template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+[[gnu::flatten]] void run_inlined(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
+    run<Normal, Tangential, Damping, Friction, Energy>(loop, contacts, begin, end);
+}
+
 struct RunMaker {
     template <class Normal, class Tangential, class Damping, class Friction, class Energy>
     static FlatKernel kernel() {
-        return &run<Normal, Tangential, Damping, Friction, Energy>;
+        // The history of partial slip is too long a code to be worth it.
+        if constexpr (std::is_same_v<Tangential, gl::PartialSlipTangential>)
+            return &run<Normal, Tangential, Damping, Friction, Energy>;
+        else
+            return &run_inlined<Normal, Tangential, Damping, Friction, Energy>;
     }
 };
 

@@ -12,8 +12,6 @@ namespace gf = grainfall::flat;
 
 namespace {
 
-#pragma omp declare reduction(+ : FlatGrains::MotionBook : omp_out += omp_in)
-
 /// As NewtonIntegrator books it: before the step, with the velocities of the step before.
 void book(FlatGrains::MotionBook& sums, const gf::Inertia& inertia, const gf::Motion& motion,
           const Vector3r& force, const Vector3r& torque, const gf::StepRules& rules) {
@@ -43,32 +41,45 @@ Real FlatGrains::move(Scene& scene, const gf::StepRules& rules, bool keep_veloci
         }
     if (keep_velocities)
         earlier_ = bodies_.motions;
-    const bool books = scene.trackEnergy;
-    const int spheres = bodies_.spheres();
-    MotionBook sums;
-    Real fastest = 0;
-    bool moved = false;
-#pragma omp parallel for schedule(static) num_threads(static_cast<int>(domains_.size()))                     \
-    reduction(+ : sums) reduction(max : fastest) reduction(|| : moved)
-    for (int i = 0; i < spheres; ++i) {
+    const int threads = static_cast<int>(domains_.size());
+    vector<Moved> parts(domains_.size());
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+    for (int d = 0; d < threads; ++d)
+        parts[static_cast<size_t>(d)] =
+            move_domain(domains_[static_cast<size_t>(d)], scene, rules, all_with_yade);
+    Moved sum;
+    for (const Moved& part : parts) {
+        sum.book += part.book;
+        sum.fastest = std::max(sum.fastest, part.fastest);
+        sum.beyond_margin |= part.beyond_margin;
+    }
+    motion_book_ = sum.book;
+    moved_ = sum.beyond_margin;
+    forces_published_ = states_published_ = false;
+    return sum.fastest;
+}
+
+/// Flattened for the same reason as the contact loop.
+[[gnu::flatten]] FlatGrains::Moved FlatGrains::move_domain(const Domain& domain, Scene& scene,
+                                                           const gf::StepRules& rules, bool all_with_yade) {
+    Moved result;
+    for (int i = domain.begin; i < domain.end; ++i) {
         const auto at = static_cast<size_t>(i);
         gf::Load load = take_load(at);
         if (all_with_yade) {
-            load.force += forces.getForce(bodies_.ids[at]);
-            load.torque += forces.getTorque(bodies_.ids[at]);
+            load.force += scene.forces.getForce(bodies_.ids[at]);
+            load.torque += scene.forces.getTorque(bodies_.ids[at]);
         }
-        if (books)
-            book(sums, bodies_.inertias[at], bodies_.motions[at], load.force, load.torque, rules);
+        if (booking_)
+            book(result.book, bodies_.inertias[at], bodies_.motions[at], load.force, load.torque, rules);
         gf::advance(bodies_, at, load.force, load.torque, rules);
-        fastest = std::max(fastest, bodies_.motions[at].velocity.squaredNorm());
+        result.fastest = std::max(result.fastest, bodies_.motions[at].velocity.squaredNorm());
         const Anchor& anchor = anchors_[at];
-        moved = moved ||
-                !((bodies_.places[at].centre - anchor.centre).squaredNorm() <= anchor.margin * anchor.margin);
+        // Not a number counts as moved.
+        result.beyond_margin |= !((bodies_.places[at].centre - anchor.centre).squaredNorm() <=
+                                  anchor.margin * anchor.margin);
     }
-    motion_book_ = sums;
-    moved_ = moved;
-    forces_published_ = states_published_ = false;
-    return fastest;
+    return result;
 }
 
 void FlatGrains::publish_state(size_t at) const {

@@ -5,6 +5,8 @@
 #include <core/Aabb.hpp>
 #include <core/State.hpp>
 
+#include <limits>
+
 namespace yade {
 
 namespace gf = grainfall::flat;
@@ -38,13 +40,19 @@ void FlatGrains::search(Reach reach) {
     read_planes();
     vector<Imported> contacts = collect_contacts();
     set_anchors(reach);
+    find_giants();
     Real farthest = 0;
     for (int i = 0; i < bodies_.spheres(); ++i) {
         const auto at = static_cast<size_t>(i);
-        farthest = std::max(farthest, bodies_.places[at].radius + anchors_[at].margin);
+        if (bodies_.places[at].radius <= giant_radius_)
+            farthest = std::max(farthest, bodies_.places[at].radius + anchors_[at].margin);
     }
     const gf::CellTable cells(bodies_.places, bodies_.spheres(), farthest);
     sort_spheres(cells, contacts);
+    giants_.clear();
+    for (int i = 0; i < bodies_.spheres(); ++i)
+        if (bodies_.places[static_cast<size_t>(i)].radius > giant_radius_)
+            giants_.push_back(i);
     place_contacts(contacts);
 
     const int threads = static_cast<int>(domains_.size());
@@ -69,6 +77,20 @@ vector<FlatGrains::Imported> FlatGrains::collect_contacts() {
         domain.opened.clear();
     }
     return contacts;
+}
+
+/// Few spheres that are much larger than the others would make the cells of all others too large; they look
+/// for their neighbours by themselves. A radius above `giant_radius_` makes a giant.
+void FlatGrains::find_giants() {
+    vector<Real> radii;
+    for (int i = 0; i < bodies_.spheres(); ++i)
+        radii.push_back(bodies_.places[static_cast<size_t>(i)].radius);
+    giant_radius_ = std::numeric_limits<Real>::infinity();
+    if (radii.empty())
+        return;
+    const size_t place = radii.size() - 1 - std::min(radii.size() / 1000 + 8, radii.size() - 1);
+    std::nth_element(radii.begin(), radii.begin() + static_cast<long>(place), radii.end());
+    giant_radius_ = 2 * radii[place];
 }
 
 /// A sphere at rest gets the skin, a moving one what it travels besides; no more than its radius, or a few
@@ -169,12 +191,21 @@ void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
         };
         for (int plane = bodies_.spheres(); plane < bodies_.count(); ++plane)
             consider(plane, i, plane);
+        if (is_giant(i)) {
+            for (int j = i + 1; j < bodies_.spheres(); ++j)
+                consider(i, j, j);
+            continue;
+        }
         cells.grid.around(bodies_.places[static_cast<size_t>(i)].centre, [&](int from, int to) {
             const int begin = std::max(cells.starts[static_cast<size_t>(from)], i + 1);
             const int end = cells.starts[static_cast<size_t>(to)];
             for (int j = begin; j < end; ++j)
-                consider(i, j, j);
+                if (!is_giant(j))
+                    consider(i, j, j);
         });
+        for (const int giant : giants_)
+            if (giant > i)
+                consider(i, giant, giant);
     }
     for (const gf::Pair& pair : domain.near)
         domain.loaded_end = std::max(domain.loaded_end, pair.second + 1);
