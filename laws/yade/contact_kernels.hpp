@@ -13,6 +13,8 @@
 #include <core/Interaction.hpp>
 #include <core/State.hpp>
 
+#include <cmath>
+
 namespace yade {
 
 using Law = Law2_ScGeom_GrainPhys_HertzMindlin;
@@ -43,7 +45,8 @@ template <class Normal>
 void recall_viscous_forces(const GrainPhys& phys, const Vector3r& normal, gl::DissipationBook& book) {
     const Real root_overlap = phys.kn / Normal::stiffness(phys.normalCoefficient, 1.0);
     const Real elastic = Normal::force(phys.normalCoefficient, root_overlap * root_overlap, root_overlap);
-    book.normal_viscous_force = phys.normalForce.dot(normal) - elastic;
+    // The normal has turned since: it gives the sign, not the length.
+    book.normal_viscous_force = std::copysign(phys.normalForce.norm(), phys.normalForce.dot(normal)) - elastic;
     book.shear_viscous_force = phys.shearForce - phys.shearElastic;
 }
 

@@ -13,7 +13,7 @@ import yade.system
 import yade.utils
 import yade.wrapper
 
-from grainfall import _core
+from grainfall import _core, _published
 
 _registered: list[str] = []
 
@@ -23,6 +23,7 @@ def register() -> tuple[str, ...]:
     _registered.extend(_core.register_classes())
     publish(_registered)
     refresh_dispatchers([*yade.wrapper.Omega().engines, *yade.utils.defaultEngines])
+    _published.install()
     return tuple(_registered)
 
 

@@ -28,7 +28,7 @@ from yade import O, Vector3, utils
 from grainfall.bed_scene import add_bed, grain_centres, read_contacts
 from grainfall.beds import Bed, BedSpec, Progress
 from grainfall.constants import GRAVITY
-from grainfall.contacts import contact_loop, rayleigh_step
+from grainfall.contacts import contact_loop, integrator, rayleigh_step
 from grainfall.packings import Box, grain_radii, random_packing, solid_fraction_in
 
 KINETIC_LIMIT = 2e-4
@@ -121,7 +121,7 @@ def _come_to_rest(
             verletDist=0.1 * float(bed.radii.min()),
         ),
         contact_loop(sand, [pair], []),
-        yade.wrapper.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=DAMPING),
+        integrator(gravity=(0, 0, -GRAVITY), damping=DAMPING),
     ]
     O.dt = STEP_FRACTION * rayleigh_step(bed.radii.min(), sand.density, young, sand.poisson)
     previous = 0.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -179,8 +179,18 @@ def _number(text: str) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def contact_loop(sand: Sand, pairs: list[Any], geometry: list[Any]) -> Any:
-    """InteractionLoop of our law for spheres, walls and whatever `geometry` adds.
+#: Words for the two ways that contacts and motion of the grains can run.
+PATHS = ("flat", "general")
+
+
+def contact_loop(
+    sand: Sand,
+    pairs: list[Any],
+    geometry: list[Any],
+    path: str = "flat",
+    blind: Sequence[str] = (),
+) -> Any:
+    """Interaction loop of our law for spheres, walls and whatever `geometry` adds.
 
     Parameters
     ----------
@@ -188,9 +198,13 @@ def contact_loop(sand: Sand, pairs: list[Any], geometry: list[Any]) -> Any:
         Friction and restitution of named pairs of materials.
     geometry : list of IGeomFunctor
         Functors beside sphere-sphere and wall-sphere.
+    path : str
+        'flat': GrainInteractionLoop, in packed arrays; 'general': YADE's own InteractionLoop.
+    blind : sequence of str
+        Labels of engines that look at no grain: the flat path publishes nothing for them.
     """
     w = yade.wrapper
-    return w.InteractionLoop(
+    functors = (
         [w.Ig2_Sphere_Sphere_ScGeom(), w.Ig2_Wall_Sphere_ScGeom(hertzian=True), *geometry],
         [w.Ip2_GrainMat_GrainMat_GrainPhys(pairs=pairs, label="contact_maker")],
         [
@@ -198,8 +212,17 @@ def contact_loop(sand: Sand, pairs: list[Any], geometry: list[Any]) -> Any:
                 normalLaw=sand.normal_law, tangentialLaw=sand.tangential_law, label="contact_law"
             )
         ],
-        label="contacts",
     )
+    if path == "general":
+        return w.InteractionLoop(*functors, label="contacts")
+    return w.GrainInteractionLoop(*functors, blindEngines=list(blind), label="contacts")
+
+
+def integrator(path: str = "flat", **attributes: Any) -> Any:
+    """Integrator that belongs to `contact_loop` of the same path; attributes of NewtonIntegrator."""
+    w = yade.wrapper
+    kind = w.NewtonIntegrator if path == "general" else w.GrainIntegrator
+    return kind(**attributes)
 
 
 def rayleigh_step(radius: float, density: float, young: float, poisson: float) -> float:

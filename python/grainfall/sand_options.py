@@ -100,6 +100,14 @@ LAWS = (
         kind=str,
         choices=("incremental", "mindlin-deresiewicz", "report", "secant", "none"),
     ),
+    Option(
+        "path",
+        "flat",
+        "flat: grains and their contacts in packed arrays, several times faster; general: YADE's own loops, "
+        "with the same results",
+        kind=str,
+        choices=("flat", "general"),
+    ),
 )
 
 

@@ -289,7 +289,7 @@ void EnergyLedger::write_energies() {
 /// Do forces and contacts still stand as the last step left them? Forces are not saved with a scene.
 bool EnergyLedger::can_balance() const {
     const auto is_this = [this](const shared_ptr<Engine>& engine) { return engine.get() == this; };
-    return forces_are_those_of_last_step_ &&
+    return forces_are_those_of_last_step_ && (!grains_ || grains_->states_are_published()) &&
            std::any_of(scene->engines.begin(), scene->engines.end(), is_this) &&
            scene->iter <= lastStep + 1 && scene->forces.synced && scene->forces.lastReset <= lastStep &&
            velocities.size() == scene->bodies->body.size();
@@ -297,6 +297,7 @@ bool EnergyLedger::can_balance() const {
 
 void EnergyLedger::update() {
     scene = Omega::instance().getScene().get();
+    grains_ = flat_grains(*scene);
     if (balancedStep != lastStep && can_balance())
         balance();
 }

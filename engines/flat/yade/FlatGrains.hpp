@@ -153,6 +153,7 @@ private:
     bool moved_ = true;
     bool booking_ = false;
     bool forces_published_ = false;
+    bool contacts_published_ = false; // in the last step
     bool states_published_ = false;
     MotionBook motion_book_;
     bool same_masks_ = true;
@@ -160,6 +161,7 @@ private:
     void take_over_bodies(Scene& scene);
     void take_over_contacts(Scene& scene, vector<Imported>& contacts);
     Imported imported(Interaction& contact) const;
+    grainfall::flat::DashpotMemory recall_dashpots(const ContactOwner& owner) const;
     void read_planes();
     vector<Imported> collect_contacts();
     void place_contacts(const vector<Imported>& contacts);

@@ -4,6 +4,7 @@
 #include <engines/flat/yade/GrainIntegrator.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
+#include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
 #include <pkg/common/Sphere.hpp>
@@ -132,8 +133,13 @@ void GrainInteractionLoop::rest_collider(bool rest) {
         return;
     collider->dead = rest;
     restsCollider = rest;
-    if (!rest)
-        scene->doSort = true;
+    if (rest)
+        return;
+    // It stands before this loop and has not looked at the scene for long: begin anew, and in this step already.
+    scene->interactions->dirty = true;
+    collider->scene = scene;
+    if (collider->isActivated())
+        collider->action();
 }
 
 FlatGrains::Reach GrainInteractionLoop::reach() const {

@@ -32,16 +32,20 @@ void FlatGrains::contacts(Scene& scene, const FlatTables::Pair& tables, bool pub
     for (const int i : touched_by_others_)
         publish_state(static_cast<size_t>(i));
     general_.act(scene, functors);
-    forces_published_ = publish;
+    forces_published_ = contacts_published_ = publish;
     if (publish)
         publish_forces(scene);
 }
 
+/// The dashpots' last forces are known if the last step was published; else their first half step is not booked.
 void FlatGrains::start_booking(bool booking) {
     booking_ = booking;
     for (Domain& domain : domains_)
-        for (FlatContacts& segment : domain.segments)
+        for (FlatContacts& segment : domain.segments) {
             segment.dashpots.assign(booking ? segment.size() : 0, gf::DashpotMemory());
+            for (size_t i = 0; booking && contacts_published_ && i < segment.size(); ++i)
+                segment.dashpots[i] = recall_dashpots(segment.owners[i]);
+        }
 }
 
 void FlatGrains::run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,

@@ -141,15 +141,19 @@ FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
         result.constants.coefficient = phys.tangensOfFrictionAngle;
     else
         result.constants.curve = &phys.curve();
-    // The dashpots' forces follow from what the contact keeps: the force applied less its elastic part.
-    if (phys.normalCoefficient > 0) {
-        const Real factor = functors.grain_law->normalLaw == "report" ? 0.5 : 1;
-        const Real root_overlap = phys.kn / (1.5 * factor * phys.normalCoefficient);
-        const Real elastic = 2. / 3 * phys.kn * root_overlap * root_overlap;
-        result.dashpot.normal = phys.normalForce.dot(geom.normal) - elastic;
-        result.dashpot.shear = phys.shearForce - phys.shearElastic;
-    }
+    result.dashpot = recall_dashpots(result.owner);
     return result;
+}
+
+/// Forces of the dashpots in the step that was published last: the forces applied less their elastic parts.
+gf::DashpotMemory FlatGrains::recall_dashpots(const ContactOwner& owner) const {
+    const GrainPhys& phys = *owner.phys;
+    if (!(phys.normalCoefficient > 0))
+        return {};
+    const Real factor = functors.grain_law->normalLaw == "report" ? 0.5 : 1;
+    const Real root_overlap = phys.kn / (1.5 * factor * phys.normalCoefficient);
+    const Real elastic = 2. / 3 * phys.kn * root_overlap * root_overlap;
+    return {phys.normalForce.dot(owner.geom->normal) - elastic, phys.shearForce - phys.shearElastic};
 }
 
 void FlatGrains::take_over_states() {

@@ -14,7 +14,7 @@ from yade import O, Quaternion
 from grainfall.bed_scene import WALL_COUNT, add_bed, restore_contacts
 from grainfall.beds import Bed, BedSpec
 from grainfall.constants import GRAVITY
-from grainfall.contacts import Sand, contact_loop, rayleigh_step
+from grainfall.contacts import Sand, contact_loop, integrator, rayleigh_step
 from grainfall.drop.trace import ENERGY_EVERY
 from grainfall.projectiles import make_projectile, projectile
 
@@ -127,11 +127,11 @@ def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
     engines = [
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
-        contact_loop(sand, pairs, contact),
+        contact_loop(sand, pairs, contact, p["path"], blind=["recorder"]),
         *stepper,
         w.ProjectileLoad(body=projectile_id(bed), label="projectile_load"),
         w.PyRunner(command=command.format("record"), label="recorder", **rate),
-        w.NewtonIntegrator(gravity=(0, 0, -GRAVITY), damping=0, label="integrator"),
+        integrator(p["path"], gravity=(0, 0, -GRAVITY), damping=0, label="integrator"),
     ]
     if p["no_energy"]:
         return engines

@@ -12,7 +12,7 @@ from yade import O, Vector3, utils
 
 from grainfall.bed_scene import grain_centres, restore_contacts
 from grainfall.constants import GRAVITY
-from grainfall.contacts import Sand, contact_loop
+from grainfall.contacts import Sand, contact_loop, integrator
 from grainfall.triaxial.membrane import Membrane, wrap
 from grainfall.triaxial.samples import Sample
 
@@ -20,7 +20,9 @@ HELD = "xyzXYZ"
 SLIDING = "xyXYZ"
 
 
-def build(sample: Sample, sand: Sand, platen_friction: float, gravity: bool) -> None:
+def build(
+    sample: Sample, sand: Sand, platen_friction: float, gravity: bool, path: str = "flat"
+) -> None:
     """Fill an empty scene with the sample between its platens; grain i becomes body i.
 
     Labels: ``contact_law``, ``contact_maker``, ``contacts``, ``integrator``, ``collider``.
@@ -33,6 +35,8 @@ def build(sample: Sample, sand: Sand, platen_friction: float, gravity: bool) -> 
         Friction coefficient of grains on platens.
     gravity : bool
         Do the grains have weight?
+    path : str
+        As `contact_loop` takes it.
     """
     w = yade.wrapper
     O.reset()
@@ -60,9 +64,9 @@ def build(sample: Sample, sand: Sand, platen_friction: float, gravity: bool) -> 
     O.engines = [
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
-        contact_loop(sand, [pair], []),
-        w.NewtonIntegrator(
-            gravity=(0, 0, -GRAVITY if gravity else 0), damping=0, label="integrator"
+        contact_loop(sand, [pair], [], path),
+        integrator(
+            path, gravity=(0, 0, -GRAVITY if gravity else 0), damping=0, label="integrator"
         ),
     ]
     restore_contacts(sample)

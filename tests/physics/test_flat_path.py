@@ -1,0 +1,297 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The flat path gives what the general path gives.
+
+Both call the same kernels on the same numbers; geometry and kinematics are computed in another order of operations,
+so that one step differs by rounding. Contacts amplify a difference with every impact: over 300 steps (3 ms, some ten
+impacts a grain) rounding of 1e-16 stays below 1e-9.
+"""
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import flat_scenes as scenes
+import numpy as np
+import pytest
+import yade.wrapper as w
+from flat_scenes import differences, engines, on_both_paths, pack, sand
+from grainfall.projectiles import projectile
+from yade import O, utils
+
+ONE_STEP, MANY_STEPS = 1e-12, 1e-9
+LAWS = ("incremental", "mindlin-deresiewicz", "report", "secant", "none")
+CURVES = {
+    "constant": lambda: 0.5,
+    "power law": w.PowerLawFriction,
+    "exponential": w.ExponentialFriction,
+    "asperity": w.AsperityFriction,
+    "table": lambda: w.TableFriction(loads=[0.001, 1.0], moistures=[0.0], mu=[0.8, 0.2]),
+}
+
+
+def build(flat: bool, law: dict[str, Any] | None = None, **material: Any) -> None:
+    pack(sand(**material))
+    engines(flat, law=law)
+
+
+def assert_equal(results: tuple[dict[str, Any], dict[str, Any]], tolerance: float) -> None:
+    flat, general = results
+    assert len(general["ids"]) > 20
+    assert np.array_equal(flat["ids"], general["ids"])
+    assert {k: v for k, v in differences(flat, general).items() if not v <= tolerance} == {}
+
+
+@pytest.mark.parametrize("tangential", LAWS)
+def test_one_step_of_every_tangential_law_is_the_general_path_s_to_1e_12(tangential):
+    """Both start from the same moving pack, made by 300 steps of the general path and loaded from a file."""
+    O.reset()
+    build(False, {"tangentialLaw": tangential})
+    O.run(300, True)
+    O.saveTmp("start")
+    results = []
+    for flat in (True, False):
+        O.loadTmp("start")
+        law = {"tangentialLaw": tangential}
+        engines(flat, law=law)
+        O.run(1, True)
+        results.append(scenes.state())
+    assert_equal((results[0], results[1]), ONE_STEP)
+
+
+@pytest.mark.parametrize("tangential", LAWS)
+@pytest.mark.parametrize("normal", ("hertz", "report"))
+def test_every_law_runs_alike_on_both_paths(normal, tangential):
+    law = {"normalLaw": normal, "tangentialLaw": tangential}
+    assert_equal(on_both_paths(lambda flat: build(flat, law), 300), MANY_STEPS)
+
+
+@pytest.mark.parametrize("curve", CURVES)
+def test_every_friction_curve_runs_alike_on_both_paths(curve):
+    results = on_both_paths(lambda flat: build(flat, friction=CURVES[curve]()), 300)
+    assert_equal(results, MANY_STEPS)
+
+
+@pytest.mark.parametrize("model", ("willett", "willett-closed"))
+@pytest.mark.parametrize("viscosity", (0.0, 1e-3))
+def test_moist_packs_run_alike_on_both_paths(model, viscosity):
+    """Bridges that hold grains together over a gap, rupture and form are among them."""
+    wet = {"gravimetricMoisture": 0.01, "bridgeModel": model, "liquidViscosity": viscosity}
+    results = on_both_paths(lambda flat: build(flat, **wet), 300)
+    assert_equal(results, MANY_STEPS)
+    assert np.any(results[0]["overlap"] < 0)
+
+
+@pytest.mark.parametrize("restitution", (1.0, 0.3))
+def test_dashpots_run_alike_on_both_paths(restitution):
+    assert_equal(on_both_paths(lambda flat: build(flat, restitution=restitution), 300), MANY_STEPS)
+
+
+def test_numerical_damping_and_blocked_motion_run_alike_on_both_paths():
+    def build_damped(flat: bool) -> None:
+        pack(sand())
+        O.bodies[5].state.blockedDOFs = "xyZ"
+        O.bodies[6].state.blockedDOFs = "xyzXYZ"
+        O.bodies[6].state.vel = (0, 0, 0.1)
+        O.bodies[7].state.isDamped = False
+        engines(flat, damping=0.3)
+
+    assert_equal(on_both_paths(build_damped, 300), MANY_STEPS)
+
+
+def test_a_moving_wall_and_permanent_forces_act_alike_on_both_paths():
+    def build_pushed(flat: bool) -> None:
+        pack(sand())
+        O.bodies[-1].state.vel = (0, 0, 0.2)
+        engines(flat)
+        for grain in range(10):
+            O.forces.setPermF(grain, (0.01, 0, -0.02))
+
+    assert_equal(on_both_paths(build_pushed, 300), MANY_STEPS)
+
+
+def test_a_projectile_meets_the_grains_alike_on_both_paths():
+    """Its pairs run through their own functors in the same step, its motion is that of an aspherical body."""
+
+    def build_drop(flat: bool) -> None:
+        pack(sand())
+        scenes.drop_projectile(projectile("m70-half"), sand(label="steel", young=1e9))
+        scenes.projectile_engines(flat)
+
+    flat, general = on_both_paths(build_drop, 300)
+    assert_equal((flat, general), MANY_STEPS)
+    assert np.abs(general["force"][-1]).max() > 0
+
+
+def test_a_giant_sphere_among_small_ones_finds_all_its_neighbours():
+    def build_giant(flat: bool) -> None:
+        pack(sand(), count=5)
+        giant = utils.sphere((0.02, 0.02, 0.075), 5 * scenes.RADIUS, material=O.materials[0])
+        giant.state.vel = (0, 0, -2)
+        O.bodies.append(giant)
+        engines(flat)
+
+    assert_equal(on_both_paths(build_giant, 300), MANY_STEPS)
+
+
+def test_the_books_of_a_moist_pack_are_the_same_on_both_paths():
+    """Every entry of O.energy, kinetic energy and gravity included, and the residual of the ledger."""
+    books = []
+    for flat in (True, False):
+        O.reset()
+        pack(sand(gravimetricMoisture=0.01))
+        engines(flat, more=[scenes.ledger()])
+        O.run(520, True)
+        residual = w.Omega().engines[-1].residual
+        books.append({**dict(O.energy.items()), "residual now": residual})
+    scale = max(abs(value) for value in books[1].values())
+    assert set(books[0]) == set(books[1])
+    for name, value in books[1].items():
+        assert books[0][name] == pytest.approx(value, abs=1e-9 * scale), name
+
+
+def test_stored_energy_and_utils_see_the_contacts_of_the_flat_path():
+    results = []
+    for flat in (True, False):
+        O.reset()
+        build(flat)
+        O.run(300, True)
+        results.append(
+            (utils.unbalancedForce(), utils.kineticEnergy(), utils.avgNumInteractions())
+            + tuple(w.Omega().engines[2].lawDispatcher.functors[0].elasticEnergy().values())
+        )
+    assert results[0] == pytest.approx(results[1], rel=1e-8)
+
+
+def test_a_script_that_looks_in_the_middle_of_a_run_sees_the_present():
+    """Positions noted by a PyRunner every 50 steps are those of the general path at the same steps."""
+    notes: dict[bool, list[Any]] = {True: [], False: []}
+
+    def build_watched(flat: bool) -> None:
+        build(flat)
+        O.engines = [
+            *O.engines,
+            w.PyRunner(command="note()", iterPeriod=50, initRun=True),
+        ]
+        import builtins
+
+        builtins.note = lambda: notes[flat].append(scenes.state())
+
+    on_both_paths(build_watched, 300)
+    assert len(notes[True]) == len(notes[False]) >= 6
+    for flat, general in zip(notes[True], notes[False]):
+        if len(general["ids"]) > 20:
+            assert_equal((flat, general), MANY_STEPS)
+
+
+def test_a_script_that_changes_bodies_in_the_middle_of_a_run_is_obeyed():
+    """Velocities set, a grain added and one erased by a PyRunner, at a time when contacts exist."""
+
+    def build_changing(flat: bool) -> None:
+        build(flat)
+        O.engines = [*O.engines, w.PyRunner(command="change()", iterPeriod=100, nDo=4)]
+
+        def change() -> None:
+            O.bodies[3].state.vel = (1, 0, 0)
+            if O.iter < 150:
+                O.bodies.append(utils.sphere((0.015, 0.015, 0.06), 0.004, material=O.materials[0]))
+                O.bodies.erase(10)
+
+        import builtins
+
+        builtins.change = change
+
+    flat, general = on_both_paths(build_changing, 350)
+    assert_equal((flat, general), MANY_STEPS)
+    assert len(flat["position"]) == 4**3 + 5
+
+
+def test_saving_in_the_middle_of_an_impact_continues_to_the_last_bit(tmp_path: Path):
+    file = str(tmp_path / "middle.yade.gz")
+    O.reset()
+    build(True, gravimetricMoisture=0.01)
+    O.run(200, True)
+    O.save(file)
+    O.run(200, True)
+    kept_on = scenes.state()
+    O.load(file)
+    O.run(200, True)
+    loaded = scenes.state()
+    assert O.engines[2].path == "flat"
+    assert {k: v for k, v in differences(loaded, kept_on).items() if v != 0} == {}
+
+
+def test_switching_the_flat_path_off_and_on_in_a_run_changes_nothing():
+    O.reset()
+    build(True)
+    O.run(100, True)
+    O.engines[2].flat = False
+    O.run(100, True)
+    assert O.engines[2].path == "general: flat = False"
+    assert not O.engines[1].dead
+    O.engines[2].flat = True
+    O.run(100, True)
+    switched = scenes.state()
+    O.reset()
+    build(False)
+    O.run(300, True)
+    assert_equal((switched, scenes.state()), MANY_STEPS)
+
+
+def test_what_cannot_run_flat_runs_on_the_general_path_and_says_why():
+    def clumps() -> None:
+        build(True)
+        O.bodies.appendClumped(
+            [utils.sphere((0.1 + 0.004 * i, 0, 0), 0.004, material=O.materials[0]) for i in (0, 1)]
+        )
+
+    def stock_integrator() -> None:
+        build(True)
+        O.engines = [*O.engines[:3], w.NewtonIntegrator(gravity=(0, 0, -9.81))]
+
+    def periodic() -> None:
+        build(True)
+        O.bodies.clear()
+        O.bodies.append(utils.sphere((0.01, 0.01, 0.01), 0.004, material=O.materials[0]))
+        O.periodic = True
+
+    for scene, reason in ((clumps, "clumps"), (stock_integrator, "GrainIntegrator"), (periodic, "periodic")):
+        O.reset()
+        scene()
+        O.run(10, True)
+        path = O.engines[2].path
+        assert path.startswith("general: ") and reason in path
+    O.reset()
+
+
+def test_pausing_a_run_in_the_background_leaves_everything_published():
+    """The forces that contacts and bodies show belong together: on every grain they add up to its force."""
+    O.reset()
+    build(True)
+    O.run()
+    while O.iter < 300:
+        pass
+    O.pause()
+    assert not O.running
+    seen = scenes.state()
+    total = np.zeros((len(O.bodies), 3))
+    for (first, second), normal, shear in zip(
+        seen["ids"], seen["normal force"], seen["shear force"]
+    ):
+        total[first] -= normal + shear
+        total[second] += normal + shear
+    assert total == pytest.approx(seen["force"], abs=1e-12 * np.abs(seen["force"]).max())
+
+
+def test_far_flung_grains_do_not_hide_neighbours():
+    """Two grains meet 10 km away from the pack, beyond the cells that cover it."""
+    O.reset()
+    build(True)
+    far = [
+        utils.sphere((1e4 + x, 0, 0), 0.005, material=O.materials[0]) for x in (0.0, 0.0102)
+    ]
+    far[0].state.vel = (1, 0, 0)
+    O.bodies.append(far)
+    O.run(40, True)
+    assert O.interactions.has(len(O.bodies) - 2, len(O.bodies) - 1)
+    assert math.isfinite(O.bodies[-1].state.vel[0]) and O.bodies[-1].state.vel[0] > 0
