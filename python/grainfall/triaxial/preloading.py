@@ -29,6 +29,8 @@ REST_STEPS, MOST_RESTS = 500, 24
 UNBALANCED_LIMIT = 1e-5
 #: Shortening above which a sample counts as fallen: sand at rest bears its load at strains of a hundredth.
 FALLEN = 0.1
+#: Unbalanced force above which a sample that has been left alone is not at rest.
+MOVING = 1e-2
 
 
 class SampleFell(ValueError):
@@ -73,7 +75,7 @@ def preload(
     advance(REST_STEPS * max(1, rests // 2))
     creep = (before - scene.top_height(sample)) / before
     integrator.damping = 0.0
-    _check_standing(sample, parameters, lateral, axial)
+    _check_standing(sample, parameters, lateral, axial, at_rest=True)
     scene.hold_top(sample)
     _stop_all()
     advance(1)
@@ -84,6 +86,7 @@ def preload(
         "lateral_stress_Pa": float(0.5 * (stress[0] + stress[1])),
         "cell_pressure_Pa": parameters["confinement"],
         "membrane_pressure_Pa": tension,
+        "bridge_suction_Pa": scene.suction(sample, membrane),
         "lower_platen_force_N": below,
         "upper_platen_force_N": above,
         "void_ratio": scene.void_ratio(sample, membrane),
@@ -120,22 +123,26 @@ def stress_path(
 
 
 def _check_standing(
-    sample: Sample, parameters: dict[str, Any], lateral: float, axial: float
+    sample: Sample, parameters: dict[str, Any], lateral: float, axial: float, at_rest: bool = False
 ) -> None:
-    """Raise `SampleFell` where the sample has given way under these stresses [Pa]."""
+    """Raise `SampleFell` where the sample gives way under these stresses [Pa]; is it supposed to rest by now?"""
     shortening = 1 - scene.top_height(sample) / sample.top
-    if shortening < FALLEN and coordination(sample) > 0:
+    fallen = shortening > FALLEN or coordination(sample) == 0
+    if not fallen and not (at_rest and scene.unbalanced_force(sample) > MOVING):
         return
     bridges = parameters["moisture"] > 0 and parameters["bridges"] != "none"
-    water = (
-        "the liquid bridges do not hold it (their suction goes with 1/diameter)"
+    state = f"has been shortened by {100 * shortening:.0f} %" + (
+        "" if fallen else " and still moves"
+    )
+    reason = (
+        "bridges do not hold it (suction goes with 1/diameter)"
         if bridges
-        else "it is dry"
+        else "friction does not hold it"
     )
     raise SampleFell(
-        f"the sample does not stand: {axial:.4g} Pa axial and {lateral:.4g} Pa lateral have shortened it by "
-        f"{100 * shortening:.0f} %, and {water}; raise --confinement or --membrane-thickness, or lower --axial-stress, "
-        "--stress-ratio or --preload-ratio"
+        f"the sample does not stand: under {axial:.4g} Pa axial and {lateral:.4g} Pa lateral stress it {state}; "
+        f"{reason}. Raise --confinement or --membrane-thickness, or lower --axial-stress, --stress-ratio or "
+        "--preload-ratio"
     )
 
 
