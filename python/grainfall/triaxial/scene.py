@@ -205,7 +205,8 @@ def stable_step(sample: Sample) -> float:
 
     sqrt(2) min sqrt(m/K) over grains and directions, K the sum of a grain's contact stiffnesses along (or, with its
     moment of inertia, about) an axis: the rule of YADE's manual. For a grain without contacts nothing follows, and
-    without any contact the step is infinite.
+    without any contact the step is infinite. `HertzTimeStepper.criticalStep`, which counts dashpots, coupled rotation
+    and the Rayleigh step too, was 0.54 to 0.92 of it in five samples from 1 to 200 kPa.
     """
     count = len(sample.radii)
     along, about = np.zeros((count, 3)), np.zeros((count, 3))
