@@ -12,8 +12,9 @@ import pytest
 from grainfall.dynamics import read_recording, stiffness_and_damping
 
 
-FREE_SIDES = {"confinement": 0, "membrane_thickness": 0, "moisture": 0.023}
-HELD = [{"confinement": 0}, {"confinement": 100, "membrane_thickness": 0}, {"confinement": 200e3}]
+FREE_SIDES = {"confinement": 0, "moisture": 0.023}
+LATEX = {"membrane_thickness": None}
+HELD = [{"confinement": 0, **LATEX}, {"confinement": 100}, {"confinement": 200e3, **LATEX}]
 
 
 def test_the_summary_has_the_agreed_keys_and_equals_its_file(finished_test):
@@ -48,10 +49,6 @@ def test_cell_pressure_and_membrane_make_the_mean_lateral_stress(finished_test):
     # stand at their own.
     summary, _ = finished_test
     assert summary["preload"]["lateral_stress_Pa"] == pytest.approx(held_by(summary), rel=0.02)
-    # E t/R of a hoop strain of 1/0.95 - 1 is 1.23 kPa; the sample's radius has changed by 1e-3 or so since it was
-    # measured for its membrane, which is 2 % of that strain.
-    membrane = 1.4e6 * (0.3 / 18) * (1 / 0.95 - 1)
-    assert summary["preload"]["membrane_pressure_Pa"] == pytest.approx(membrane, rel=0.05)
 
 
 def test_the_axial_stress_is_the_one_asked_for_and_both_platens_feel_it(finished_test):
@@ -176,6 +173,11 @@ def test_the_confinement_asked_for_is_reached_from_none_to_the_highest(tiny_test
     # Love-Weber over five grains: the membrane's cells are as large as a grain.
     assert summary["preload"]["lateral_stress_Pa"] == pytest.approx(held_by(summary), rel=0.03)
     assert summary["stiffness_N_per_m"][0] > 0
+    if summary["parameters"]["membrane_thickness"] is None:
+        # E t/R of a hoop strain of 1/0.95 - 1 is 1.23 kPa; this sample is 2 % narrower than asked for, and its radius
+        # has changed by up to 1e-3 since it was measured for its membrane, which is 2 % of that strain.
+        membrane = 1.4e6 * (0.3 / 18) * (1 / 0.95 - 1)
+        assert summary["preload"]["membrane_pressure_Pa"] == pytest.approx(membrane, rel=0.05)
     # With forces 1e3 times smaller the cycles are as large as before: contacts open and close.
     assert summary["energy_residual_relative"] < 1e-3
 
