@@ -24,6 +24,7 @@ OPTIONS = {
     "diameter": 30e-3,
     "height": 60e-3,
     "confinement": 5e3,
+    "membrane_thickness": 0,
     "tangential_law": "incremental",
     "peak_to_peak": 6 * 400e-9 * 60 / 85,
     "preload_friction": 0.2,

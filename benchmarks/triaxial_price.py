@@ -29,6 +29,7 @@ BASE = {
     "friction": "0.5",
     "frequencies": "50",
     "confinement": 5e3,
+    "membrane_thickness": 0,
     "tangential_law": "incremental",
     "no_plots": True,
     "quiet": True,

@@ -114,7 +114,7 @@ private:
         double energy_before = 0;
         if constexpr (Energy::active) {
             before = rotated_with_contact(memory.shear_force, geometry);
-            energy_before = shear_elastic_energy(history, coefficient);
+            energy_before = shear_elastic_energy(history);
         }
         const Planar shift(-history.axis.dot(geometry.shear_increment),
                            -across.dot(geometry.shear_increment));
@@ -131,8 +131,8 @@ private:
         force.sliding = cap_shear(friction, load, viscous, elastic, force.shear) || history.slides;
         if constexpr (Energy::active) {
             energy.add_shear_viscous(force.shear - elastic, geometry.shear_increment);
-            energy.add_partial_slip(before, energy_before, elastic,
-                                    shear_elastic_energy(history, coefficient), geometry.shear_increment);
+            energy.add_partial_slip(before, energy_before, elastic, shear_elastic_energy(history),
+                                    geometry.shear_increment);
         }
         memory.shear_force = elastic;
         memory.shear_stiffness = force.shear_stiffness;

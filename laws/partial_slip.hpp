@@ -47,6 +47,7 @@ struct SlipHistory {
     Vector axis = Vector::Zero();    // unit vector in the contact plane: first axis of the pieces' vectors
     Planar pending = Planar::Zero(); // m, shear since the pieces were up to date
     double limit_slope = 0;          // kappa at that time
+    double coefficient = 0;          // N/m^1.5, 8 G* sqrt(R*) of the law that kept it
     double force_squared = 0;        // N^2, of the elastic force that this history gave last
     bool slides = false;             // did all springs slip when the pieces were brought up to date?
 
@@ -66,16 +67,15 @@ struct PartialSlipMemory : ContactMemory {
     }
 };
 
-// J, energy in the springs; `coefficient` is 8 G* sqrt(R*) of the law in use.
-inline double shear_elastic_energy(const SlipHistory& history, double coefficient) {
-    return 0.5 * coefficient * history.integral_of_square();
+// J, energy in the springs.
+inline double shear_elastic_energy(const SlipHistory& history) {
+    return 0.5 * history.coefficient * history.integral_of_square();
 }
 
 inline double shear_elastic_energy(const PartialSlipMemory& memory) {
-    const double rim = memory.history.pieces.rim();
-    if (!(rim > 0 && memory.holds_history()))
+    if (!(memory.history.pieces.count > 0 && memory.holds_history()))
         return shear_elastic_energy(memory.shear_force, memory.shear_stiffness);
-    return shear_elastic_energy(memory.history, memory.shear_stiffness / rim);
+    return shear_elastic_energy(memory.history);
 }
 
 struct PartialSlipTangential {
@@ -164,6 +164,7 @@ inline void advance_slip_history(SlipHistory& history, double rim, const Planar&
 inline void carry_slip_history(PartialSlipMemory& memory, const ContactGeometry& geometry, double coefficient,
                                double limit_slope) {
     SlipHistory& history = memory.history;
+    history.coefficient = coefficient;
     bool adopt = !memory.holds_history();
     history.axis = rotated_with_contact(history.axis, geometry);
     // A new contact has no axis yet; one whose normal jumped by a right angle has lost it.

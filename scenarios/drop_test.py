@@ -6,14 +6,9 @@ Under yade-batch the columns of the parameter table are the options, with unders
     yade-batch table.txt scenarios/drop_test.py
 """
 
-import os
-import sys
-
-from yade import utils
-
 import grainfall  # noqa: F401  registers the classes
-from grainfall.batch import batch_row
-from grainfall.drop import OptionError, drop_test
+from grainfall.command_line import run_script
+from grainfall.drop import drop_test
 from grainfall.drop.parameters import TABLE
 
 EPILOG = (
@@ -21,29 +16,10 @@ EPILOG = (
     "Results: summary.json, trace.csv, trace.h5, plots/, bed_forces.png, vtk/, summary.html."
 )
 
-
-def main() -> int:
-    """Read options, run, report; the exit code says how it went."""
-    parser = TABLE.parser(__doc__.splitlines()[0], EPILOG)
-    try:
-        given = (
-            batch_row(TABLE.by_name)
-            if utils.runningInBatch()
-            else vars(parser.parse_args(sys.argv[1:]))
-        )
-        summary = drop_test(**given)
-    except (OptionError, ValueError) as error:
-        print(f"drop_test.py: error: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print(
-            "drop_test.py: stopped while the bed was prepared: nothing to resume", file=sys.stderr
-        )
-        return 130
-    return 130 if summary["interrupted"] else 0
-
-
-exit_code = main()
-if exit_code:
-    sys.stdout.flush()
-    os._exit(exit_code)
+run_script(
+    TABLE,
+    __doc__.splitlines()[0],
+    EPILOG,
+    drop_test,
+    "stopped while the bed was prepared: nothing to resume",
+)

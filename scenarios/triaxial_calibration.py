@@ -6,14 +6,9 @@ Under yade-batch the columns of the parameter table are the options, with unders
     yade-batch table.txt scenarios/triaxial_calibration.py
 """
 
-import os
-import sys
-
-from yade import utils
-
 import grainfall  # noqa: F401  registers the classes
-from grainfall.batch import batch_row
-from grainfall.triaxial import OptionError, triaxial_test
+from grainfall.command_line import run_script
+from grainfall.triaxial import triaxial_test
 from grainfall.triaxial.parameters import TABLE
 
 EPILOG = (
@@ -21,29 +16,10 @@ EPILOG = (
     "Results: summary.json, loops_*.csv, loops.h5, plots/, summary.html."
 )
 
-
-def main() -> int:
-    """Read options, run, report; the exit code says how it went."""
-    parser = TABLE.parser(__doc__.splitlines()[0], EPILOG)
-    try:
-        if utils.runningInBatch():
-            given = batch_row(TABLE.by_name)
-        else:
-            given = vars(parser.parse_args(sys.argv[1:]))
-        summary = triaxial_test(**given)
-    except (OptionError, ValueError) as error:
-        print(f"triaxial_calibration.py: error: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        print(
-            "triaxial_calibration.py: stopped before the first cycle: nothing to resume",
-            file=sys.stderr,
-        )
-        return 130
-    return 130 if summary["interrupted"] else 0
-
-
-exit_code = main()
-if exit_code:
-    sys.stdout.flush()
-    os._exit(exit_code)
+run_script(
+    TABLE,
+    __doc__.splitlines()[0],
+    EPILOG,
+    triaxial_test,
+    "stopped before the first cycle: nothing to resume",
+)

@@ -21,6 +21,7 @@ void PartialSlip::recall(gl::SlipHistory& history) const {
     history.pending = pending;
     history.limit_slope = limitSlope;
     history.slides = slides;
+    history.coefficient = coefficient;
     history.force_squared = forceSquared;
     history.pieces.count = 0;
     Real start = 0;
@@ -41,6 +42,7 @@ void PartialSlip::keep(const gl::SlipHistory& history) {
     pending = history.pending;
     limitSlope = history.limit_slope;
     slides = history.slides;
+    coefficient = history.coefficient;
     forceSquared = history.force_squared;
     pieces.resize(numbers_per_piece * static_cast<std::size_t>(history.pieces.count));
     Real* p = pieces.data();

@@ -26,6 +26,7 @@ public:
         ((Vector2r, pending, Vector2r::Zero(), Attr::readonly, "shear [m] since the pieces were brought up to date, by which all are stretched besides."))
         ((Real, limitSlope, 0, Attr::readonly, "slip limit of tau over (overlap - y) [-] at that time."))
         ((bool, slides, false, Attr::readonly, "did the whole contact slip at that time?"))
+        ((Real, coefficient, 0, Attr::readonly, "8 G* sqrt(R*) [N/m^1.5] of the law that kept the pieces: half of it times the integral of tau^2 over the square root of y is the energy they hold."))
         ((Real, forceSquared, 0, Attr::readonly, "square of the elastic force that this history gave last [N^2]; another law's force shows by it."))
     );
     // clang-format on

@@ -10,7 +10,27 @@ import pytest
 from scenario_script import SMALL, TINY
 
 from grainfall.drop import drop_test
+from grainfall.options import OptionError
 from grainfall.triaxial import triaxial_test
+
+
+@pytest.fixture
+def refuses(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Check that a scenario refuses options with this message before anything has been run or written."""
+
+    def began(*arguments: Any) -> None:
+        raise AssertionError("a bad value got through and the run began")
+
+    monkeypatch.setattr("grainfall.drop.run.obtain_bed", began)
+    monkeypatch.setattr("grainfall.triaxial.run.obtain_sample", began)
+
+    def check(scenario: Callable[..., Any], message: str, **options: Any) -> None:
+        output = tmp_path / "refused"
+        with pytest.raises(OptionError, match=message):
+            scenario(output=str(output), **options)
+        assert not output.exists()
+
+    return check
 
 
 @pytest.fixture(scope="session")

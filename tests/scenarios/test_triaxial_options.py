@@ -16,8 +16,13 @@ BAD = [
     ("frequencies", "10,x", r"--frequencies = '10,x': 'x' must be a number in \[1, 1000\] Hz"),
     ("frequencies", "10,10", r"--frequencies = '10,10': '10'.*each once"),
     ("frequencies", "5000", r"--frequencies = '5000'.*\[1, 1000\] Hz"),
-    ("confinement", 0, r"--confinement = 0.*\[100, 200000\] Pa"),
-    ("confinement", 3e5, r"--confinement = 300000.0.*\[100, 200000\] Pa"),
+    ("confinement", -1, r"--confinement = -1.*\[0, 200000\] Pa"),
+    ("confinement", 3e5, r"--confinement = 300000.0.*\[0, 200000\] Pa"),
+    ("membrane_young", 0, r"--membrane-young = 0.*\(0, 1e\+09\] Pa"),
+    ("membrane_thickness", 0.1, r"--membrane-thickness = 0.1.*\[0, 0.005\] m"),
+    ("membrane_fit", 1.1, r"--membrane-fit = 1.1.*\[0.5, 1\]"),
+    ("axial_stress", 0, r"--axial-stress = 0.*\(0, 600000\] Pa"),
+    ("energy_limit", -1, r"--energy-limit = -1.*of at least 0"),
     ("stress_ratio", 9, r"--stress-ratio = 9.*\[0.5, 3\]"),
     ("void_ratio", 0.2, r"--void-ratio = 0.2.*\[0.5, 0.9\]"),
     ("diameter", 0.01, r"--diameter = 0.01.*at least 0.015 m, three grain diameters"),
@@ -34,20 +39,28 @@ BAD = [
 
 
 @pytest.mark.parametrize(("name", "value", "message"), BAD)
-def test_a_bad_value_is_named_with_what_is_allowed(name, value, message, tmp_path, monkeypatch):
-    def began(*arguments):
-        raise AssertionError("a bad value got through and the run began")
-
-    monkeypatch.setattr("grainfall.triaxial.run.obtain_sample", began)
-    output = tmp_path / "test"
-    with pytest.raises(OptionError, match=message):
-        triaxial_test(output=str(output), **{name: value})
-    assert not output.exists()
+def test_a_bad_value_is_named_with_what_is_allowed(name, value, message, refuses):
+    refuses(triaxial_test, message, **{name: value})
 
 
-def test_frequencies_without_a_common_period_are_refused_together(tmp_path):
-    with pytest.raises(OptionError, match="repeat only after 100 s"):
-        triaxial_test(output=str(tmp_path), frequencies="10,33.33", multisine=True)
+def test_frequencies_without_a_common_period_are_refused_together(refuses):
+    refuses(triaxial_test, "repeat only after 100 s", frequencies="10,33.33", multisine=True)
+
+
+# Nothing holds the sides: no cell pressure and no membrane, or one that is not stretched.
+FREE_SIDES = {"confinement": 0, "membrane_thickness": 0}
+SLACK = {"confinement": 0, "membrane_fit": 1}
+UNHELD = [
+    (FREE_SIDES, "--confinement = 0.* dry grains .*give --membrane-thickness .*, or --moisture"),
+    (SLACK, "--confinement = 0.* dry grains"),
+    ({**FREE_SIDES, "moisture": 0.02, "bridges": "none"}, "--confinement = 0.* dry grains"),
+    ({**FREE_SIDES, "moisture": 0.02}, "--confinement = 0.*--axial-stress must be given"),
+]
+
+
+@pytest.mark.parametrize(("options", "message"), UNHELD)
+def test_a_sample_that_nothing_holds_is_refused_with_the_cure(options, message, refuses):
+    refuses(triaxial_test, message, **options)
 
 
 def test_a_row_of_a_batch_runs_with_its_own_parameters_into_its_own_folder(sample_cache, tmp_path):

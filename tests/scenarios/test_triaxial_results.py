@@ -12,6 +12,11 @@ import pytest
 from grainfall.dynamics import read_recording, stiffness_and_damping
 
 
+FREE_SIDES = {"confinement": 0, "moisture": 0.023}
+LATEX = {"membrane_thickness": None}
+HELD = [{"confinement": 0, **LATEX}, {"confinement": 100}, {"confinement": 200e3, **LATEX}]
+
+
 def test_the_summary_has_the_agreed_keys_and_equals_its_file(finished_test):
     summary, folder = finished_test
     agreed = {
@@ -34,19 +39,23 @@ def test_the_summary_has_the_agreed_keys_and_equals_its_file(finished_test):
     assert len(summary["stiffness_N_per_m"]) == len(summary["damping_N_s_per_m"]) == 2
 
 
-def test_the_membrane_s_pressure_is_the_mean_lateral_stress(finished_test):
+def held_by(summary):
+    """Lateral stress of cell pressure and membrane together [Pa]."""
+    return summary["parameters"]["confinement"] + summary["preload"]["membrane_pressure_Pa"]
+
+
+def test_cell_pressure_and_membrane_make_the_mean_lateral_stress(finished_test):
     # Love-Weber on contacts, membrane and platens. What differs: the cells of a ring carry p times the mean radius, but
     # stand at their own.
     summary, _ = finished_test
-    state, p = summary["preload"], summary["parameters"]
-    assert state["lateral_stress_Pa"] == pytest.approx(p["confinement"], rel=0.02)
+    assert summary["preload"]["lateral_stress_Pa"] == pytest.approx(held_by(summary), rel=0.02)
 
 
 def test_the_axial_stress_is_the_one_asked_for_and_both_platens_feel_it(finished_test):
     # At rest to an unbalanced force of 1e-5 of a contact's.
     summary, _ = finished_test
     state, p = summary["preload"], summary["parameters"]
-    axial = p["confinement"] * p["stress_ratio"]
+    axial = held_by(summary) * p["stress_ratio"]
     assert state["axial_stress_Pa"] == pytest.approx(axial, rel=1e-3)
     area = math.pi / 4 * state["diameter_m"] ** 2
     assert state["lower_platen_force_N"] == pytest.approx(axial * area, rel=1e-3)
@@ -97,17 +106,20 @@ def test_without_inertia_the_stiffness_hardly_depends_on_frequency(finished_test
 
 
 def test_energy_is_accounted_for_and_partial_slip_lets_go_of_no_shear_energy(finished_test):
-    # Of what a cycle stores, a small part of what the membrane supplies. The slip history is brought up to date where
-    # 1e-4 of the force has changed: so good are its books.
+    # Relative to what a cycle stores, a small part of what the membrane supplies. What is left is the leapfrog's error
+    # in the normal springs, (time step times frequency of a contact)^2 of a strain energy that changes by percents.
     summary, _ = finished_test
-    assert 0 <= summary["energy_residual_relative"] < 3e-3
+    assert 0 <= summary["energy_residual_relative"] < 1e-5
     assert summary["dissipated_by_rescaling_J"] == [0.0, 0.0]
+    assert not any("energy balance" in note for note in summary["notes"])
 
 
 def test_the_incremental_law_keeps_its_books_to_the_leapfrog_s_error(tiny_test):
-    summary, _ = tiny_test(tangential_law="incremental")
-    assert summary["energy_residual_relative"] < 1e-5
+    summary, _ = tiny_test(tangential_law="incremental", energy_limit=1e-15)
+    assert 1e-15 < summary["energy_residual_relative"] < 1e-5
     assert summary["dissipated_by_rescaling_J"][0] > 0
+    (warning,) = (note for note in summary["notes"] if "energy balance" in note)
+    assert "of the energy that a cycle stores, more than --energy-limit 1e-15" in warning
 
 
 def test_water_makes_bridges_and_the_sample_stiffer(tiny_test):
@@ -155,9 +167,34 @@ def test_coarsening_and_softening_are_stated(finished_test):
     np.testing.assert_allclose(ratio, report * 10 ** (2 / 3), rtol=1e-9)
 
 
-@pytest.mark.parametrize("confinement", [100.0, 200e3])
-def test_the_confinement_asked_for_is_reached_at_both_ends_of_its_range(tiny_test, confinement):
-    summary, _ = tiny_test(confinement=confinement)
+@pytest.mark.parametrize("changes", HELD)
+def test_the_confinement_asked_for_is_reached_from_none_to_the_highest(tiny_test, changes):
+    summary, _ = tiny_test(**changes)
     # Love-Weber over five grains: the membrane's cells are as large as a grain.
-    assert summary["preload"]["lateral_stress_Pa"] == pytest.approx(confinement, rel=0.03)
+    assert summary["preload"]["lateral_stress_Pa"] == pytest.approx(held_by(summary), rel=0.03)
     assert summary["stiffness_N_per_m"][0] > 0
+    if summary["parameters"]["membrane_thickness"] is None:
+        # E t/R of a hoop strain of 1/0.95 - 1 is 1.23 kPa; this sample is 2 % narrower than asked for, and its radius
+        # has changed by up to 1e-3 since it was measured for its membrane, which is 2 % of that strain.
+        membrane = 1.4e6 * (0.3 / 18) * (1 / 0.95 - 1)
+        assert summary["preload"]["membrane_pressure_Pa"] == pytest.approx(membrane, rel=0.05)
+    # With forces 1e3 times smaller the cycles are as large as before: contacts open and close.
+    assert summary["energy_residual_relative"] < 1e-3
+
+
+def test_bridges_hold_a_moist_sample_whose_sides_are_free(tiny_test):
+    summary, _ = tiny_test(**FREE_SIDES, axial_stress=100.0)
+    state = summary["preload"]
+    assert held_by(summary) == 0
+    # The bridges pull as the grains press: no stress across the sides, the platen's load along the axis. Platens hold
+    # the end grains back by friction, which leaves a few pascals.
+    assert state["bridge_suction_Pa"] > 100
+    assert abs(state["lateral_stress_Pa"]) < 0.03 * state["bridge_suction_Pa"]
+    assert state["axial_stress_Pa"] == pytest.approx(100, rel=1e-3)
+    assert state["height_m"] == pytest.approx(summary["sample"]["height_m"], rel=1e-3)
+
+
+def test_a_sample_that_its_bridges_cannot_hold_is_told_before_it_is_cycled(tiny_test):
+    # Suction of some 240 Pa: Mohr and Coulomb (30 degrees or so) grant it twice that.
+    with pytest.raises(ValueError, match="does not stand: under .* Raise --confinement or --membr"):
+        tiny_test(**FREE_SIDES, axial_stress=5000.0)

@@ -13,7 +13,7 @@ from grainfall.dynamics import loop_energy
 from grainfall.packings import Cylinder, random_packing
 from grainfall.running import advance
 from grainfall.triaxial import cyclic, scene
-from grainfall.triaxial.membrane import wrap
+from grainfall.triaxial.membrane import RubberTube, wrap
 from grainfall.triaxial.samples import Sample, SampleSpec, load_sample, save_sample
 
 YOUNG, POISSON, RADIUS, DENSITY = 7e9, 0.2, 2e-3, 2650.0
@@ -153,6 +153,16 @@ def test_a_membrane_pushes_with_its_pressure_and_pushes_nothing_aside():
     # p times the lateral surface, up to the cosine of the angle between cell and grain: 15 degrees at most, 1.2 % in
     # the mean
     assert inwards.sum() == pytest.approx(1e4 * 2 * np.pi * membrane.radius * height, rel=0.02)
+
+
+def test_a_stretched_membrane_gives_back_the_work_that_stretched_it():
+    # Per height: pressure times the area swept is E strain^2/2 in a wall of thickness t and length 2 pi R0.
+    tube = RubberTube(young=1.4e6, thickness=0.3e-3, radius=17e-3)
+    radii = np.linspace(17e-3, 19e-3, 2001)
+    force = [tube.pressure(r) * 2 * np.pi * r for r in radii]
+    stored = 0.5 * 1.4e6 * (2 / 17) ** 2 * 0.3e-3 * 2 * np.pi * 17e-3
+    assert np.trapz(force, radii) == pytest.approx(stored, rel=1e-9)
+    assert tube.pressure(16.9e-3) == 0
 
 
 def test_an_inner_grain_feels_no_membrane():

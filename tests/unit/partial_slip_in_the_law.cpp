@@ -106,6 +106,22 @@ TEST(PartialSlip, scales_with_the_printed_normal_force) {
     EXPECT_NEAR(force.shear_stiffness / stiffness, 1, 1e-14);
 }
 
+TEST(PartialSlip, energy_that_a_contact_holds_and_friction_make_up_the_work_at_every_step) {
+    // Pressed and sheared so slowly that the pieces are brought up to date only every few tens of steps: what
+    // is read from the contact must be right in between too.
+    const double reach = mu * normal_force() / stuck_stiffness();
+    Contact<DissipationBook> contact(overlap);
+    for (double leg : {0.6, -0.9, 0.5, -0.2}) {
+        const int steps = 20000;
+        for (int i = 0; i < steps; ++i) {
+            contact.move(0.1 * leg * overlap / steps, leg * reach / steps * contact.tangent());
+            const double kept = shear_elastic_energy(contact.memory) + contact.energy.friction;
+            ASSERT_NEAR(kept / contact.work, 1, 1e-9) << leg << ", " << i;
+        }
+    }
+    EXPECT_GT(contact.energy.friction, 0.05 * contact.work);
+}
+
 TEST(PartialSlip, books_close_over_oblique_impacts) {
     const ElasticMaterial oxide{3.8e11, 0.23};
     const double radius = 2.5e-3, mass = 4.0 / 3 * detail::pi * radius * radius * radius * 4000;

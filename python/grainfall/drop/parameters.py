@@ -7,6 +7,7 @@ from typing import Any
 
 from grainfall.drop.checks import CHECKS
 from grainfall.options import Option, OptionTable
+from grainfall.run_notes import ENERGY_LIMIT
 from grainfall.sand_options import LAWS, SAND
 
 # Section 3.3: box 30 cm long, 15 cm wide, 30 cm high; replicas dropped 24 in (0.61 m) on ASTM 20-30 sand,
@@ -111,14 +112,7 @@ RUN = (
         low=0,
         runtime=True,
     ),
-    Option(
-        "energy_limit",
-        1e-3,
-        "warn if the energy residual is larger than this, relative to the energy in play",
-        "-",
-        low=0,
-        runtime=True,
-    ),
+    ENERGY_LIMIT,
     Option("no_energy", False, "book no energies: faster, no energy residual", kind=bool),
     Option("no_plots", False, "write no pictures and no HTML page", kind=bool, runtime=True),
     Option("quiet", False, "no progress bar and no printed summary", kind=bool, runtime=True),

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from yade import O
 
+from grainfall import run_notes
 from grainfall.beds import Bed
 from grainfall.drop.results import drop_results, energy_results
 from grainfall.price import engine_seconds
@@ -31,7 +32,6 @@ PRINTED = (
     "grain_enlargement",
     "energy_residual_relative",
     "simulated_seconds",
-    "wall_seconds",
 )
 
 
@@ -63,7 +63,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
     summary["price"] = engine_seconds(run.clock, "drop", run.earlier["price"])
     summary["bed"] = {**bed.report, "from_cache": run.bed_was_cached}
     summary["parameters"] = dict(p)
-    summary["notes"] = notes(summary, p)
+    summary["notes"] = notes(summary)
     return summary
 
 
@@ -95,41 +95,19 @@ def coarsening(p: dict[str, Any], bed: Bed) -> dict[str, Any]:
     }
 
 
-def notes(summary: dict[str, Any], p: dict[str, Any]) -> list[str]:
+def notes(summary: dict[str, Any]) -> list[str]:
     """What a reader must know to use the numbers."""
-    lines = []
-    if summary["grain_enlargement"] > 1:
-        lines.append(
-            f"Grains are {summary['grain_enlargement']:.1f} times larger than the real ones: "
-            f"{summary['particles']} stand for {summary['real_grains']:.3g}. Friction is read at the load "
-            "divided by the square of that."
-        )
+    lines = run_notes.coarse_grains(summary)
     overlap = summary["largest_overlap_over_radius"]
     if overlap > 0.01:
         lines.append(
             f"The largest overlap seen is {100 * overlap:.1f} % of a grain's radius: the grains are soft "
             "(--young); below 1 % stiffness hardly matters."
         )
-    residual = summary.get("energy_residual_relative")
-    if residual is not None and residual > p["energy_limit"]:
-        lines.append(
-            f"WARNING: the energy balance is off by {residual:.1e} of the energy in play, more than "
-            f"--energy-limit {p['energy_limit']:g}: reduce --dt-safety."
-        )
-    if p["moisture"] > 0 and not p["moisture_factor"] and p["bridges"] == "none":
-        lines.append(
-            "Water is present but nothing in this run depends on it: give --moisture-factor or leave "
-            "--bridges on."
-        )
-    share = summary.get("water", {}).get("share_beyond_pendular", 0.0)
-    if share > 0:
-        lines.append(
-            f"{100 * share:.0f} % of the liquid bridges are so large that neighbours would merge (beyond the "
-            "pendular regime): the forces are those of separate bridges of the same volume."
-        )
-    if summary["interrupted"]:
-        lines.append("The run was interrupted: continue with --resume FOLDER.")
-    elif summary.get("stop_time_s") is None:
+    lines += run_notes.energy_balance(summary, "the energy in play")
+    lines += run_notes.water(summary)
+    lines += run_notes.interruption(summary)
+    if not summary["interrupted"] and summary.get("stop_time_s") is None:
         lines.append("The projectile was still moving at the end: depth and times are not final.")
     return lines
 
@@ -141,8 +119,4 @@ def print_summary(summary: dict[str, Any], folder: Path) -> None:
         if key in summary:
             name, unit = split_unit(key)
             print(f"  {name:28s} {number(summary[key])} {unit}".rstrip())
-    print("  effects                      " + "; ".join(summary["effects"]))
-    dearest = sorted(summary["price"].items(), key=lambda item: -item[1])[:4]
-    print("  price                        " + ", ".join(f"{k} {v:.1f} s" for k, v in dearest))
-    for note in summary["notes"]:
-        print(f"  note: {note}")
+    run_notes.print_end(summary)

@@ -69,6 +69,31 @@ def grains_fit(values: dict[str, Any], given: Mapping[str, Any]) -> None:
             )
 
 
+def lateral_stress_is_there(values: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """Something holds the sample's sides, and the axial stress is known.
+
+    A body in balance with free sides and smooth platens has no mean lateral stress, and friction bears an axial one
+    only beside a lateral one (docs/triaxial.md).
+    """
+    from grainfall.triaxial.parameters import rubber_tube
+
+    diameter = values["diameter"]
+    tension = rubber_tube(values, diameter).pressure(0.5 * diameter)
+    if values["confinement"] + tension > 0:
+        return
+    if values["moisture"] == 0 or values["bridges"] == "none":
+        raise OptionError(
+            f"--confinement = {values['confinement']}: dry grains without cell pressure and without a membrane in "
+            "tension do not stand, friction cannot hold a free side; give --membrane-thickness above 0 and "
+            "--membrane-fit below 1, or --moisture with --bridges, or a confinement above 0 Pa"
+        )
+    if values["axial_stress"] is None:
+        raise OptionError(
+            f"--confinement = {values['confinement']}: no cell pressure and no membrane in tension, so there is no "
+            "lateral stress that --stress-ratio could multiply; --axial-stress must be given"
+        )
+
+
 def cycles_in_order(values: dict[str, Any], given: Mapping[str, Any]) -> None:
     """The least number of cycles does not exceed the most."""
     if values["most_cycles"] < values["least_cycles"]:
@@ -83,5 +108,6 @@ CHECKS = (
     grains_fit,
     strain_is_small,
     cycles_in_order,
+    lateral_stress_is_there,
     friction_is_known,
 )

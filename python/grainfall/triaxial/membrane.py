@@ -21,6 +21,32 @@ CELL_IN_DIAMETERS = 0.6
 
 
 @dataclass(frozen=True)
+class RubberTube:
+    """The membrane's own elasticity: a thin tube drawn over the sample, free to shorten.
+
+    Parameters
+    ----------
+    young : float
+        Young's modulus of the rubber [Pa].
+    thickness : float
+        Of the wall [m].
+    radius : float
+        Radius of the unstretched tube [m].
+    """
+
+    young: float
+    thickness: float
+    radius: float
+
+    def pressure(self, radius: float) -> float:
+        """Pressure [Pa] on what stretches the tube to this radius [m]: hoop tension E t (R/R0 - 1) over R.
+
+        The correction of triaxial tests (Henkel & Gilbert 1952; ASTM D4767). A slack tube presses on nothing.
+        """
+        return max(0.0, self.young * self.thickness * (radius / self.radius - 1) / radius)
+
+
+@dataclass(frozen=True)
 class Membrane:
     """Where a membrane rests.
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from grainfall.options import Option, OptionTable
+from grainfall.run_notes import ENERGY_LIMIT
 from grainfall.sand_options import LAWS, SAND
 from grainfall.triaxial.checks import CHECKS
+from grainfall.triaxial.membrane import RubberTube
 
 #: Section 3.2.1: size of the sample [m] and bound of the peak-to-peak displacement [m].
 REPORT_DIAMETER, REPORT_HEIGHT, REPORT_PEAK_TO_PEAK = 36e-3, 85e-3, 500e-9
@@ -51,6 +53,7 @@ RUN = (
         "folder of prepared samples (default: ~/.cache/grainfall/samples)",
         kind=str,
     ),
+    ENERGY_LIMIT,
     Option("no_energy", False, "book no energies: faster, no energy residual", kind=bool),
     Option("no_plots", False, "write no pictures and no HTML page", kind=bool, runtime=True),
     Option("quiet", False, "no progress bar and no printed summary", kind=bool, runtime=True),
@@ -73,8 +76,51 @@ SAMPLE = (
     Option("gravity", False, "the grains have weight", kind=bool),
 )
 
+#: Thickness of a latex membrane for samples of the report's diameter [m]: below 1 % of the diameter, ASTM D4767.
+LATEX_THICKNESS = 0.3e-3
+
+MEMBRANE = (
+    Option(
+        "membrane_young",
+        1.4e6,
+        "Young's modulus of the membrane (latex, ASTM D4767)",
+        "Pa",
+        low=0,
+        open_low=True,
+        high=1e9,
+    ),
+    Option(
+        "membrane_thickness",
+        None,
+        "thickness of the membrane, whose tension adds to the cell pressure; 0: only the cell pressure acts (default: "
+        "0.3e-3 on 36 mm, in proportion to the diameter)",
+        "m",
+        low=0,
+        high=5e-3,
+    ),
+    Option(
+        "membrane_fit",
+        0.95,
+        "diameter of the unstretched membrane over that of the sample (ASTM D4767: 0.90 to 0.95)",
+        "-",
+        low=0.5,
+        high=1,
+    ),
+)
+
 LOADING = (
-    Option("confinement", 20e3, "lateral pressure of the membrane", "Pa", low=100, high=200e3),
+    Option("confinement", 20e3, "cell pressure; 0 for none", "Pa", low=0, high=200e3),
+    *MEMBRANE,
+    Option(
+        "axial_stress",
+        None,
+        "axial stress at which the sample is held in the cyclic stage; preloading goes as far above it as without this "
+        "option (default: stress_ratio times the lateral stress of cell and membrane)",
+        "Pa",
+        low=0,
+        open_low=True,
+        high=600e3,
+    ),
     Option(
         "stress_ratio",
         1.2,
@@ -182,6 +228,15 @@ def real_peak_to_peak(parameters: dict[str, Any]) -> float:
 def peak_to_peak(parameters: dict[str, Any]) -> float:
     """Peak-to-peak displacement [m] that the simulated sample gets."""
     return real_peak_to_peak(parameters) * softness(parameters) ** (-2 / 3)
+
+
+def rubber_tube(parameters: dict[str, Any], diameter: float) -> RubberTube:
+    """The membrane that is drawn over a sample of this diameter [m]."""
+    p = parameters
+    thickness = p["membrane_thickness"]
+    if thickness is None:
+        thickness = LATEX_THICKNESS / REPORT_DIAMETER * p["diameter"]
+    return RubberTube(p["membrane_young"], thickness, 0.5 * diameter * p["membrane_fit"])
 
 
 def frequency_list(parameters: dict[str, Any]) -> list[float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import builtins
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -157,24 +158,16 @@ def unbalanced_force(sample: Sample) -> float:
 
 
 def mean_stress(sample: Sample, membrane: Membrane) -> np.ndarray:
-    """Mean stress between platens and membrane from the contact forces (Love-Weber), shape (3, 3) [Pa].
+    """Mean stress between platens and membrane from contacts and bridges (Love-Weber), shape (3, 3) [Pa].
 
     V sigma_ij = sum over contacts of branch_i force_j. The branch of a contact with a platen ends at the contact
     point. The membrane bears on its grains at the surface: its part is that of branches from the grains' centres to
     its points, under the forces that the grains feel from it now. Compression is positive.
     """
     total = np.zeros((3, 3))
-    for contact in O.interactions:
-        if not contact.isReal:
-            continue
-        force = np.array(contact.phys.normalForce + contact.phys.shearForce)
-        first, second = sorted((contact.id1, contact.id2))
-        if contact.id1 > contact.id2:
-            force = -force
-        begin = np.array(O.bodies[first].state.pos)
-        grain = second < len(sample.radii)
-        end = np.array(O.bodies[second].state.pos if grain else contact.geom.contactPoint)
-        total += np.outer(end - begin, force)
+    for contact, branch in _branches(sample):
+        total += np.outer(branch, contact.phys.normalForce + contact.phys.shearForce)
+        total += np.outer(branch, _bridge_force(contact))
     centres = grain_centres(len(sample.radii))
     held = np.array([O.forces.permF(i) for i in range(len(centres))])
     strength = float(np.linalg.norm(held)) / max(
@@ -185,12 +178,39 @@ def mean_stress(sample: Sample, membrane: Membrane) -> np.ndarray:
     return total / volume(sample, membrane)
 
 
+def suction(sample: Sample, membrane: Membrane) -> float:
+    """By how much liquid bridges press the grains together: their part of the mean stress, tension positive [Pa]."""
+    virial = sum(float(np.dot(b, _bridge_force(contact))) for contact, b in _branches(sample))
+    return -virial / 3 / volume(sample, membrane)
+
+
+def _branches(sample: Sample) -> Iterator[tuple[Any, np.ndarray]]:
+    """Each contact with its branch [m] from body 1 to body 2, as its force acts."""
+    for contact in O.interactions:
+        if not contact.isReal:
+            continue
+        ends = [
+            np.array(O.bodies[i].state.pos if i < len(sample.radii) else contact.geom.contactPoint)
+            for i in (contact.id1, contact.id2)
+        ]
+        yield contact, ends[1] - ends[0]
+
+
+def _bridge_force(contact: Any) -> np.ndarray:
+    """Force of the contact's liquid bridge on body 2 [N], shape (3,); YADE's normalForce is without it."""
+    bridge = contact.phys.bridge
+    if bridge is None:
+        return np.zeros(3)
+    return (bridge.viscousForce - bridge.attraction) * np.array(contact.geom.normal)
+
+
 def stable_step(sample: Sample) -> float:
     """Largest step that the contacts of this moment allow without damping [s].
 
     sqrt(2) min sqrt(m/K) over grains and directions, K the sum of a grain's contact stiffnesses along (or, with its
     moment of inertia, about) an axis: the rule of YADE's manual. For a grain without contacts nothing follows, and
-    without any contact the step is infinite.
+    without any contact the step is infinite. `HertzTimeStepper.criticalStep`, which counts dashpots, coupled rotation
+    and the Rayleigh step too, was 0.54 to 0.92 of it in five samples from 1 to 200 kPa.
     """
     count = len(sample.radii)
     along, about = np.zeros((count, 3)), np.zeros((count, 3))

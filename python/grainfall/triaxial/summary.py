@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from yade import O
 
+from grainfall import run_notes
 from grainfall.price import engine_seconds
 from grainfall.report.html_page import number
 from grainfall.triaxial.cyclic import CyclicTest, inertia_free
@@ -66,6 +67,7 @@ def test_results(
         "third_harmonic": [one.force_harmonics[1] for one in lower],
         "cycles": len(test.cycle_ends) - 1,
         "change_of_last_cycle": change,
+        "least_platen_force_N": float(test.table(FITTED_CYCLES)[:, 2:].min()),
         "steady": change < parameters["steady_change"],
         "time_step_s": test.step,
         "steps": test.steps_per_cycle * len(test.cycle_ends),
@@ -169,12 +171,7 @@ def _scaling(run: TriaxialRun) -> dict[str, Any]:
 
 def notes(summary: dict[str, Any], p: dict[str, Any]) -> list[str]:
     """What a reader must know to use the numbers."""
-    lines = []
-    if summary["grain_enlargement"] > 1:
-        lines.append(
-            f"Grains are {summary['grain_enlargement']:.1f} times larger than the real ones: {summary['particles']} "
-            f"stand for {summary['real_grains']:.3g}. Friction is read at the load divided by the square of that."
-        )
+    lines = run_notes.coarse_grains(summary)
     if summary["modulus_over_real"] < 1:
         lines.append(
             f"Grains are {1 / summary['modulus_over_real']:.3g} times softer than the real ones and the platen moves "
@@ -190,15 +187,16 @@ def notes(summary: dict[str, Any], p: dict[str, Any]) -> list[str]:
         lines.append(
             f"The sample came out at a void ratio of {reached:.3f}, not {p['void_ratio']:.3f}."
         )
-    if p["moisture"] > 0 and not p["moisture_factor"]:
-        lines.append(
-            "Water is present but nothing in this run depends on it: give --moisture-factor."
-        )
+    lines += run_notes.energy_balance(summary, "the energy that a cycle stores")
+    lines += run_notes.water(summary)
     if not all(summary.get("steady", [True])):
         lines.append("Not all frequencies became steady: see change_of_last_cycle.")
-    if summary["interrupted"]:
-        lines.append("The run was interrupted: continue with --resume FOLDER.")
-    return lines
+    if min(summary.get("least_platen_force_N", [math.inf])) <= 0:
+        lines.append(
+            "A platen was pulled or left by the sand during the cycles, so k and b are no small-strain values: raise "
+            "the axial stress or reduce --peak-to-peak."
+        )
+    return lines + run_notes.interruption(summary)
 
 
 def print_summary(summary: dict[str, Any], folder: Path) -> None:
@@ -207,14 +205,13 @@ def print_summary(summary: dict[str, Any], folder: Path) -> None:
     state = summary["preload"]
     print(
         f"  {summary['particles']} grains, void ratio {state['void_ratio']:.3f}, "
-        f"axial {state['axial_stress_Pa'] / 1e3:.3g} kPa, lateral {state['lateral_stress_Pa'] / 1e3:.3g} kPa"
+        f"axial {state['axial_stress_Pa'] / 1e3:.3g} kPa, lateral {state['lateral_stress_Pa'] / 1e3:.3g} kPa, of which "
+        f"membrane {state['membrane_pressure_Pa'] / 1e3:.3g} kPa"
     )
     if "frequency_Hz" in summary:
         print(f"  {'f [Hz]':>8} {'k [N/m]':>10} {'b [N s/m]':>10} {'w b/k':>9}")
         columns = ("frequency_Hz", "stiffness_N_per_m", "damping_N_s_per_m", "loss_factor")
         for row in zip(*(summary[name] for name in columns)):
             print("  {:8.4g} {:10.4g} {:10.4g} {:9.2g}".format(*row))
-        print(f"  energy residual {number(summary['energy_residual_relative'])}")
-    print(f"  wall {summary['wall_seconds']:.1f} s; effects " + "; ".join(summary["effects"]))
-    for note in summary["notes"]:
-        print(f"  note: {note}")
+        print(f"  {'energy residual relative':28s} {number(summary['energy_residual_relative'])}")
+    run_notes.print_end(summary)
