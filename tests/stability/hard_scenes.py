@@ -6,10 +6,10 @@ meet; it is run once for each tangential law. SI units throughout.
 """
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+from grainfall.hertz import HertzImpact, Solid
 from yade import (
     AsperityFriction,
     Bo1_Box_Aabb,
@@ -108,10 +108,7 @@ def sphere(
 
 def impact_duration(speed: float, radius: float = RADIUS, young: float = YOUNG) -> float:
     """Duration [s] of the elastic impact of two equal quartz spheres closing at `speed` (Hertz)."""
-    modulus = young / (1 - POISSON**2) / 2
-    mass = DENSITY * 4 / 3 * math.pi * radius**3 / 2
-    overlap = (15 * mass * speed**2 / (16 * modulus * math.sqrt(radius / 2))) ** 0.4
-    return 2.943275 * overlap / speed
+    return HertzImpact.of_equal_spheres(Solid(young, POISSON, DENSITY), radius, speed).duration
 
 
 def states(ids: Iterable[int]) -> list:
