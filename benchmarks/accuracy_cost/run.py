@@ -3,7 +3,7 @@
 
 usage: make accuracy
        PYTHONPATH=build/python:benchmarks yade -j1 -n -x benchmarks/accuracy_cost/run.py [CASE ...] [--repeats N]
-       [--fresh]
+       [--samples N] [--fresh]
 
 Writes benchmarks/results/accuracy_cost.json, docs/images/accuracy_<case>.png and the tables of docs/accuracy.md;
 cases that are not named keep what they had. Long runs
@@ -31,36 +31,42 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", metavar="CASE", help=f"of {', '.join(CASES)}")
     parser.add_argument("--repeats", type=int, help="runs of each setting (default: by case)")
+    parser.add_argument(
+        "--samples", type=int, default=1, help="samples to run of each setting (default: 1)"
+    )
     parser.add_argument("--fresh", action="store_true", help="run again what was kept")
     options = parser.parse_args()
     for name in options.cases:
         if name not in CASES:
             parser.error(f"CASE = {name!r}: must be one of {', '.join(CASES)}")
-    results = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    results = load()
     for name in options.cases or CASES:
-        run_case(
-            CASES[name],
-            options.repeats or REPEATS[name],
-            {} if options.fresh else results.get(name, {}),
-        )
+        before = {} if options.fresh else results.get(name, {})
+        run_case(CASES[name], before, options.repeats or REPEATS[name], options.samples)
 
 
-def run_case(case: study.Case, repeats: int, before: dict[str, Any]) -> None:
+def run_case(case: study.Case, before: dict[str, Any], repeats: int, samples: int) -> None:
     """Run one case, as far as `before`, its part of the results file, does not have it, and report it."""
     kept = study.KeptRuns(before.get("runs", []), lambda runs: save(case.name, runs=runs))
     truth = before.get("reference_result")
     if truth is None or before["reference"] != study.reference_options(case):
         print(f"{case.name}: reference", flush=True)
         truth = case.run(**case.reference).result
-        if isinstance(truth, float):
-            save(case.name, reference=study.reference_options(case), reference_result=truth)
-    points = study.measure(case, repeats, truth, kept, lambda text: print(text, flush=True))
-    report.write(case.name, save(case.name, **study.as_json(case, truth, points)))
+        save(case.name, **study.reference_as_json(case, truth))
+    points = study.measure(
+        case, truth, kept, repeats, samples, lambda text: print(text, flush=True)
+    )
+    report.write(case.name, save(case.name, **study.as_json(case, points)))
+
+
+def load() -> dict[str, Any]:
+    """The results file, by case."""
+    return json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
 
 
 def save(name: str, **entries: Any) -> dict[str, Any]:
     """Put entries into a case's part of the results file; returns that part."""
-    results = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.exists() else {}
+    results = load()
     results.setdefault(name, {}).update(entries)
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     RESULTS.write_text(json.dumps(results, indent=2) + "\n", encoding="utf-8")

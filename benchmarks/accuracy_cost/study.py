@@ -110,38 +110,41 @@ class KeptRuns:
 
 
 def measure(
-    case: Case, repeats: int, truth: Any, kept: KeptRuns, progress: Callable[[str], None]
+    case: Case,
+    truth: Any,
+    kept: KeptRuns,
+    repeats: int,
+    samples: int,
+    progress: Callable[[str], None],
 ) -> list[Point]:
-    """Run every setting, all its samples, and compare with `truth`, the result of the reference run.
+    """Run the settings, the first `samples` samples of each, and compare with `truth`, the result of the reference run.
 
-    Runs are repeated `repeats` times in turn; the least time of each counts, which other programs disturb least.
+    Kept runs are not run again, and count whatever their sample. The others are repeated `repeats` times in turn; the
+    least time of each counts, which other programs disturb least.
     """
-    best: dict[tuple[str, str, int], Measurement] = {}
-    for repeat in range(repeats):
-        for knob in case.knobs:
-            for label, setting in knob.settings.items():
-                for number, sample in enumerate(case.samples):
-                    options = {**sample, **setting}
-                    name = f"{case.name}: {knob.name} = {label}, sample {number + 1}"
-                    run = kept.find(options)
-                    if run is None:
-                        progress(f"{name} ({repeat + 1}/{repeats})")
-                        run = case.run(**options)
-                        kept.add(options, run)
-                    key = (knob.name, label, number)
-                    if key not in best or run.cpu_seconds < best[key].cpu_seconds:
-                        best[key] = run
-    return [
-        point(
-            case,
-            truth,
-            knob.name,
-            label,
-            [best[knob.name, label, n] for n in range(len(case.samples))],
-        )
-        for knob in case.knobs
-        for label in knob.settings
+    names = [(knob.name, label) for knob in case.knobs for label in knob.settings]
+    settings = [options for knob in case.knobs for options in knob.settings.values()]
+    best: list[dict[int, Measurement]] = [{} for _ in settings]
+    for setting, runs in zip(settings, best):
+        for number, sample in enumerate(case.samples):
+            if run := kept.find({**sample, **setting}):
+                runs[number] = run
+    missing = [
+        (place, number)
+        for place, runs in enumerate(best)
+        for number in range(min(samples, len(case.samples)))
+        if number not in runs
     ]
+    for repeat in range(repeats):
+        for place, number in missing:
+            knob, label = names[place]
+            progress(f"{case.name}: {knob} = {label}, {number + 1} ({repeat + 1}/{repeats})")
+            options = {**case.samples[number], **settings[place]}
+            run, before = case.run(**options), best[place].get(number)
+            if before is None or run.cpu_seconds < before.cpu_seconds:
+                best[place][number] = run
+                kept.add(options, run)
+    return [point(case, truth, *name, list(runs.values())) for name, runs in zip(names, best)]
 
 
 def point(case: Case, truth: Any, knob: str, label: str, runs: Sequence[Measurement]) -> Point:
@@ -173,12 +176,18 @@ def reference_options(case: Case) -> dict[str, str]:
     return {key: str(value) for key, value in case.reference.items()}
 
 
-def as_json(case: Case, truth: Any, points: Iterable[Point]) -> dict[str, Any]:
-    """What goes into the results file; a reference that is one number is kept, since its run may be long."""
+def reference_as_json(case: Case, truth: Any) -> dict[str, Any]:
+    """The reference in the results file; one that is a number is kept, since its run may be long."""
+    return {
+        "reference": reference_options(case),
+        "reference_result": truth if isinstance(truth, float) else None,
+    }
+
+
+def as_json(case: Case, points: Iterable[Point]) -> dict[str, Any]:
+    """The points in the results file."""
     return {
         "error": case.error,
         "cost": case.cost,
-        "reference": reference_options(case),
-        "reference_result": truth if isinstance(truth, float) else None,
         "points": [asdict(point) for point in points],
     }
