@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Oblique impacts of two equal spheres at 0.1 to 300 m/s: one fixed step for all, or one that adapts.
 
-A fixed step must do for all speeds, as in a scene whose fastest grain is not known beforehand. The truth takes 2000 steps
-for each impact.
+A fixed step must do for all speeds, as in a scene whose fastest grain is not known beforehand. The truth takes
+2000 steps for each impact.
 """
 from __future__ import annotations
 
