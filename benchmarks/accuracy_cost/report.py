@@ -93,7 +93,7 @@ def draw_scatter(axes: Any, points: list[dict[str, Any]], marker: str, colour: s
         if p["scatter"] is None:
             continue
         x, y, half = p["cpu_seconds"], p["error"], p["scatter"]
-        below = min(half, 0.9 * y)
+        below = min(half, 0.6 * y)
         axes.errorbar([x], [y], [[below], [half]], color=colour, lw=0.8, capsize=2)
         if within_scatter(p):
             axes.plot([x], [y], marker, mec=colour, mfc="white", ms=5, zorder=3)
