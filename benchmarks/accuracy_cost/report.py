@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Table and figure of a study."""
+"""Table and figure of a study. An error below the scatter of its samples is marked: chance alone could make it."""
 from __future__ import annotations
 
 import re
@@ -27,21 +27,40 @@ def write(name: str, results: dict[str, Any]) -> None:
     PAGE.write_text(pattern.sub(lambda _: block, page), encoding="utf-8")
 
 
+def within_scatter(point: dict[str, Any]) -> bool:
+    """Is the error no more than two runs differ by chance?"""
+    return point["scatter"] is not None and point["error"] <= point["scatter"]
+
+
 def table(results: dict[str, Any]) -> str:
     """Markdown table of the points."""
-    extras = list(results["points"][0]["extra"])
+    points = results["points"]
+    sampled = any(point["samples"] > 1 for point in points)
+    extras = list(points[0]["extra"])
     head = ["knob", "setting", "error", "processor time [s]", *extras]
+    if sampled:
+        head[3:3] = ["scatter", "samples"]
     rows = [head, ["---"] * len(head)]
-    for point in results["points"]:
-        numbers = [f"{point['error']:.2g}", f"{point['cpu_seconds']:.3g}"]
-        numbers += [f"{point['extra'][key]:.4g}" for key in extras]
-        rows.append([point["knob"], point["setting"], *numbers])
+    for point in points:
+        row = [point["knob"], point["setting"], f"{point['error']:.2g}"]
+        if sampled:
+            scatter = "-" if point["scatter"] is None else f"{point['scatter']:.2g}"
+            row[2] += " (below scatter)" if within_scatter(point) else ""
+            row += [scatter, str(point["samples"])]
+        row.append(f"{point['cpu_seconds']:.3g}")
+        rows.append(row + [f"{point['extra'][key]:.4g}" for key in extras])
     lines = ["| " + " | ".join(row) + " |" for row in rows]
-    return f"Error: {results['error']}. Time: {results['cost']}.\n\n" + "\n".join(lines)
+    about = f"Error: {results['error']}. Time: {results['cost']}."
+    if sampled:
+        about += " Scatter: standard deviation of the samples, in the error's unit; all else: their mean."
+    return about + "\n\n" + "\n".join(lines)
 
 
 def draw(results: dict[str, Any], file: Path) -> None:
-    """Error against processor time, one line a knob, each point with its setting."""
+    """Error against processor time, one line a knob, each point with its setting.
+
+    Bars: scatter of the samples. Hollow: the error is below the scatter.
+    """
     figure, axes = plt.subplots(figsize=(7.5, 5.4), layout="constrained")
     knobs = dict.fromkeys(point["knob"] for point in results["points"])
     for marker, knob in zip("osD^vP*", knobs):
@@ -49,7 +68,8 @@ def draw(results: dict[str, Any], file: Path) -> None:
         x = [p["cpu_seconds"] for p in points]
         y = [p["error"] for p in points]
         numeric = all(re.fullmatch(r"[-+.\de]+", p["setting"]) for p in points)
-        axes.plot(x, y, marker + ("-" if numeric else ""), label=knob, ms=5, lw=1)
+        (line,) = axes.plot(x, y, marker + ("-" if numeric else ""), label=knob, ms=5, lw=1)
+        draw_scatter(axes, points, marker, line.get_color())
         for p, px, py in zip(points, x, y):
             axes.annotate(
                 p["setting"], (px, py), xytext=(4, 3), textcoords="offset points", fontsize=6
@@ -65,3 +85,15 @@ def draw(results: dict[str, Any], file: Path) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=110)
     plt.close(figure)
+
+
+def draw_scatter(axes: Any, points: list[dict[str, Any]], marker: str, colour: str) -> None:
+    """Bars of the scatter, cut where they would leave a logarithmic axis, and hollow markers below it."""
+    for p in points:
+        if p["scatter"] is None:
+            continue
+        x, y, half = p["cpu_seconds"], p["error"], p["scatter"]
+        below = min(half, 0.6 * y)
+        axes.errorbar([x], [y], [[below], [half]], color=colour, lw=0.8, capsize=2)
+        if within_scatter(p):
+            axes.plot([x], [y], marker, mec=colour, mfc="white", ms=5, zorder=3)

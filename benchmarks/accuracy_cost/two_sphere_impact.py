@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 import numpy as np
+from grainfall.hertz import HertzImpact, Solid
 from yade import (
     Bo1_Sphere_Aabb,
     ForceResetter,
@@ -33,14 +34,6 @@ FRICTION = 0.3
 SPEED = 1.0  # m/s, closing along the line of centres
 ANGLES = np.radians(np.arange(0.0, 86.0, 2.0))  # of the velocity to the line of centres
 COPIES = 5  # of each impact, so that a run lasts long enough to be timed
-
-
-def duration() -> float:
-    """Duration of the head-on impact after Hertz [s]."""
-    modulus = YOUNG / (1 - POISSON**2) / 2
-    mass = DENSITY * 4 / 3 * math.pi * RADIUS**3 / 2
-    overlap = (15 * mass * SPEED**2 / (16 * modulus * math.sqrt(RADIUS / 2))) ** 0.4
-    return 2.943275 * overlap / SPEED
 
 
 def run(steps: int, law: str) -> Measurement:
@@ -75,7 +68,8 @@ def run(steps: int, law: str) -> Measurement:
         ),
         NewtonIntegrator(damping=0),
     ]
-    O.dt = duration() / steps
+    head_on = HertzImpact.of_equal_spheres(Solid(YOUNG, POISSON, DENSITY), RADIUS, SPEED)
+    O.dt = head_on.duration / steps
     O.trackEnergy = False
     cpu = timed(lambda: O.run(math.ceil(1.1 * steps), True))
     assert O.interactions.countReal() == 0

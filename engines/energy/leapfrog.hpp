@@ -14,9 +14,11 @@
 // only the difference between the trapezoid work of a nonlinear spring and the change of the energy it
 // stores.
 //
-// Where the step changes, K_m - K_(m-1) has F_m dt_m/dt_(m-1) in place of F_m: the integrator itself makes
-// 1/2 F_m . v_(m-1/2) (dt_m - dt_(m-1)). That is an error of the motion and is left in the residual; its sum
-// is kept beside it.
+// Where the step changes, the sum up to x_m arrives at 1/2 M v_(m-1/2) . (v_(m-1/2) + F_m dt_(m-1)/M), and
+// goes on from there with 1/2 M (v_(m+1/2) - F_m dt_m/M) . v_(m+1/2) = K_m. The difference is made by the
+// change: 1/2 F_m . v_(m-1/2) (dt_m - dt_(m-1)) by YADE's integrator alone, first order in the step, and -1/8
+// F_m^2/M (dt_m^2 - dt_(m-1)^2), second order, if its velocity is corrected for the change. That is an error
+// of the motion and is left in the residual; its sum is kept beside it.
 //
 // Half a work belongs to the step before a force acts and half to the one after, so that nothing but
 // velocities must be remembered from step to step.
@@ -139,8 +141,11 @@ inline double add(const DegreeOfFreedom& dof, StepWidths dt, StepSums& sums) {
     sums.potential -= dof.inertia * dof.field * (dof.position - displacement_after);
     sums.damping.add(dof.inertia * (acceleration.damped - acceleration.free), displacement_before,
                      displacement_after);
-    sums.step_change += 0.5 * dof.inertia * acceleration.damped * before * (dt.now - dt.before);
-    return 0.5 * dof.inertia * before * dof.velocity;
+    const double kinetic = 0.5 * dof.inertia * before * dof.velocity;
+    if (dt.now != dt.before)
+        sums.step_change +=
+            kinetic - 0.5 * dof.inertia * dof.earlier * (dof.earlier + dt.before * acceleration.damped);
+    return kinetic;
 }
 
 } // namespace grainfall::energy

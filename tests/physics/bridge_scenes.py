@@ -7,25 +7,7 @@ from dataclasses import dataclass
 
 import contact_scenes as cs
 import numpy as np
-from yade import (
-    Bo1_Box_Aabb,
-    Bo1_Facet_Aabb,
-    Bo1_SolidOfRevolution_Aabb,
-    Bo1_Sphere_Aabb,
-    Bo1_Wall_Aabb,
-    ForceResetter,
-    Ig2_Box_Sphere_ScGeom,
-    Ig2_Facet_Sphere_ScGeom,
-    Ig2_SolidOfRevolution_Sphere_ScGeom,
-    Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Wall_Sphere_ScGeom,
-    InsertionSortCollider,
-    InteractionLoop,
-    Ip2_GrainMat_GrainMat_GrainPhys,
-    Law2_ScGeom_GrainPhys_HertzMindlin,
-    NewtonIntegrator,
-    O,
-)
+from yade import Bo1_SolidOfRevolution_Aabb, Ig2_SolidOfRevolution_Sphere_ScGeom, O
 
 # Quartz grain of 2 mm, softened so that a step may be long; water.
 SOLID = cs.Solid(1e9, 0.2, 2650)
@@ -107,35 +89,16 @@ def grain_share(moisture: float, radius: float = RADIUS, bridges: float = 6) -> 
 
 def set_engines(gravity: float = 0.0, record=None, factor: float = 1.0, **law) -> object:
     """Engines for all shapes; returns the law. `factor`: interactionDetectionFactor of spheres."""
-    functor = Law2_ScGeom_GrainPhys_HertzMindlin(**law)
-    O.engines = [
-        ForceResetter(),
-        InsertionSortCollider(
-            [
-                Bo1_Sphere_Aabb(aabbEnlargeFactor=factor),
-                Bo1_Wall_Aabb(),
-                Bo1_Box_Aabb(),
-                Bo1_Facet_Aabb(),
-                Bo1_SolidOfRevolution_Aabb(),
-            ],
-            verletDist=0,
-        ),
-        InteractionLoop(
-            [
-                Ig2_Sphere_Sphere_ScGeom(interactionDetectionFactor=factor),
-                Ig2_Wall_Sphere_ScGeom(hertzian=True),
-                Ig2_Box_Sphere_ScGeom(),
-                Ig2_Facet_Sphere_ScGeom(hertzian=True),
-                Ig2_SolidOfRevolution_Sphere_ScGeom(),
-            ],
-            [Ip2_GrainMat_GrainMat_GrainPhys()],
-            [functor],
-        ),
-        *([cs.recorder(record)] if record else []),
-        NewtonIntegrator(damping=0, gravity=(0, 0, -gravity)),
-    ]
+    functors = cs.grain_law(**law)
+    cs.set_engines(functors, record, (0, 0, -gravity))
+    collider, loop = O.engines[1:3]
+    collider.verletDist = 0
+    collider.boundDispatcher.functors[0].aabbEnlargeFactor = factor
+    collider.boundDispatcher.functors += [Bo1_SolidOfRevolution_Aabb()]
+    loop.geomDispatcher.functors[0].interactionDetectionFactor = factor
+    loop.geomDispatcher.functors += [Ig2_SolidOfRevolution_Sphere_ScGeom()]
     O.dt = 1e-6
-    return functor
+    return functors[1][0]
 
 
 def kinetic_energy() -> float:

@@ -6,24 +6,13 @@ usage: yade -n -x [-j2] friction_pack.py <output.json> <tangential law> <gravime
 import json
 import math
 import sys
+from pathlib import Path
 
-import grainfall  # noqa: F401
-from yade import (
-    Bo1_Sphere_Aabb,
-    Bo1_Wall_Aabb,
-    ExponentialFriction,
-    ForceResetter,
-    GrainMat,
-    Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Wall_Sphere_ScGeom,
-    InsertionSortCollider,
-    InteractionLoop,
-    Ip2_GrainMat_GrainMat_GrainPhys,
-    Law2_ScGeom_GrainPhys_HertzMindlin,
-    NewtonIntegrator,
-    O,
-    utils,
-)
+sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
+
+import grainfall  # noqa: E402, F401
+import contact_scenes as cs  # noqa: E402
+from yade import ExponentialFriction, GrainMat, O, utils  # noqa: E402
 
 RADIUS = 0.005
 STEPS = 3000
@@ -51,16 +40,7 @@ def build() -> None:
         for position in (-1.1 * RADIUS, (count - 1) * pitch + 1.1 * RADIUS):
             O.bodies.append(utils.wall(position, axis=axis, sense=0))
     O.bodies.append(utils.wall(-1.1 * RADIUS, axis=2, sense=0))
-    O.engines = [
-        ForceResetter(),
-        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()]),
-        InteractionLoop(
-            [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
-            [Ip2_GrainMat_GrainMat_GrainPhys()],
-            [Law2_ScGeom_GrainPhys_HertzMindlin(tangentialLaw=sys.argv[2])],
-        ),
-        NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
-    ]
+    cs.set_engines(cs.grain_law(tangentialLaw=sys.argv[2]), gravity=(0, 0, -9.81))
     O.dt = 1e-5
 
 

@@ -7,7 +7,7 @@ import math
 import contact_scenes as cs
 import ledger_scenes as scenes
 import pytest
-from yade import EnergyLedger, GrainMat, O, wrapper
+from yade import EnergyLedger, GrainMat, HertzTimeStepper, O, wrapper
 
 G = scenes.GRAVITY
 RADIUS = scenes.RADIUS
@@ -240,6 +240,28 @@ def test_change_of_the_step_explains_what_it_makes():
         O.run(5, True)
     assert abs(ledger.residual) > 1e-4 * ledger.energyInPlay
     assert ledger.residual == pytest.approx(ledger.stepChangeEnergy, rel=1e-9)
+
+
+@pytest.mark.parametrize("corrected", [True, False])
+def test_change_of_the_step_by_the_stepper_explains_what_it_makes(corrected):
+    """So it does with the velocities that HertzTimeStepper corrects; the error then is of second order."""
+    ledger = free_sphere(gravity=(0, 0, -G))
+    stepper = HertzTimeStepper(
+        safety=100,
+        timeStepUpdateInterval=1,
+        deadBand=0,
+        maxGrowth=1e9,
+        correctVelocity=corrected,
+    )
+    O.engines = O.engines[:3] + [stepper] + O.engines[3:]
+    O.run(2, True)
+    for i in range(30):
+        stepper.safety = 100 * (1 + i % 3)
+        O.run(5, True)
+    assert stepper.changes == 30
+    assert ledger.residual == pytest.approx(ledger.stepChangeEnergy, rel=1e-6)
+    share = abs(ledger.residual) / ledger.energyInPlay
+    assert (share < 1e-4) if corrected else (share > 1e-3)
 
 
 def test_clump_is_counted_once_and_closes_in_a_collision():

@@ -6,28 +6,18 @@ meet; it is run once for each tangential law. SI units throughout.
 """
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
+import contact_scenes as cs
 import numpy as np
+from grainfall.hertz import HertzImpact, Solid
 from yade import (
     AsperityFriction,
-    Bo1_Box_Aabb,
-    Bo1_Sphere_Aabb,
-    Bo1_Wall_Aabb,
     ConstantFriction,
     ExponentialFriction,
-    ForceResetter,
     GrainMat,
     GrainPair,
-    Ig2_Box_Sphere_ScGeom,
-    Ig2_Sphere_Sphere_ScGeom,
-    Ig2_Wall_Sphere_ScGeom,
-    InsertionSortCollider,
-    InteractionLoop,
-    Ip2_GrainMat_GrainMat_GrainPhys,
     Law2_ScGeom_GrainPhys_HertzMindlin,
-    NewtonIntegrator,
     O,
     PowerLawFriction,
     TableFriction,
@@ -72,24 +62,11 @@ def set_engines(
     **law_attributes,
 ) -> Law2_ScGeom_GrainPhys_HertzMindlin:
     """Ordinary engines for spheres, walls and boxes; `extra` ones stand before the integrator. Returns the law."""
-    functor = Law2_ScGeom_GrainPhys_HertzMindlin(tangentialLaw=law, **law_attributes)
-    O.engines = [
-        ForceResetter(),
-        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb(), Bo1_Box_Aabb()]),
-        InteractionLoop(
-            [
-                Ig2_Sphere_Sphere_ScGeom(),
-                Ig2_Wall_Sphere_ScGeom(hertzian=True),
-                Ig2_Box_Sphere_ScGeom(),
-            ],
-            [Ip2_GrainMat_GrainMat_GrainPhys(pairs=list(pairs))],
-            [functor],
-        ),
-        *extra,
-        NewtonIntegrator(damping=0, gravity=(0, 0, -gravity)),
-    ]
+    functors = cs.grain_law({"pairs": list(pairs)}, tangentialLaw=law, **law_attributes)
+    cs.set_engines(functors, gravity=(0, 0, -gravity))
+    O.engines = [*O.engines[:-1], *extra, O.engines[-1]]
     O.trackEnergy = True
-    return functor
+    return functors[1][0]
 
 
 def sphere(
@@ -108,10 +85,7 @@ def sphere(
 
 def impact_duration(speed: float, radius: float = RADIUS, young: float = YOUNG) -> float:
     """Duration [s] of the elastic impact of two equal quartz spheres closing at `speed` (Hertz)."""
-    modulus = young / (1 - POISSON**2) / 2
-    mass = DENSITY * 4 / 3 * math.pi * radius**3 / 2
-    overlap = (15 * mass * speed**2 / (16 * modulus * math.sqrt(radius / 2))) ** 0.4
-    return 2.943275 * overlap / speed
+    return HertzImpact.of_equal_spheres(Solid(young, POISSON, DENSITY), radius, speed).duration
 
 
 def states(ids: Iterable[int]) -> list:

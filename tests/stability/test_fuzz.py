@@ -14,6 +14,7 @@ import os
 import hard_scenes as hs
 import numpy as np
 import pytest
+from grainfall.hertz import HertzImpact
 from yade import O
 
 SCENES = 1000
@@ -88,8 +89,7 @@ def time_step(ids: list[int], speed: float) -> float:
             modulus = 1 / sum((1 - x.material.poisson**2) / x.material.young for x in (a, b))
             mass = 1 / (1 / a.state.mass + 1 / b.state.mass)
             radius = 1 / (1 / a.shape.radius + 1 / b.shape.radius)
-            closing = 4 * speed
-            overlap = (15 * mass * closing**2 / (16 * modulus * math.sqrt(radius))) ** 0.4
+            overlap = HertzImpact(modulus, radius, mass, 4 * speed).overlap
             # What overlaps at the start may be stiffer than any impact.
             overlap = max(overlap, 0.2 * radius)
             stiffness = 2 * modulus * math.sqrt(radius * overlap)

@@ -50,7 +50,7 @@ public:
         ((int, iterPeriod, 100, , "Steps between two balances [-], >= 1. Works are summed in every step; this is how often stored energies are counted and O.energy and the maxima are brought up to date. Residual and table are for the last step whenever the simulation stands still."))
         ((Real, energyInPlay, 0, Attr::readonly, "Largest so far of the kinetic energy and of the energy that has changed hands since the start [J]."))
         ((Real, largestResidual, 0, Attr::readonly, "Largest magnitude of the residual at the balances so far [J]."))
-        ((Real, stepChangeEnergy, 0, Attr::readonly, "Energy that the integrator itself made because the time step changed [J]; it is part of the residual."))
+        ((Real, stepChangeEnergy, 0, Attr::readonly, "Energy that the integrator itself made because the time step changed [J]; it is part of the residual. Rotation of bodies with unequal moments of inertia is not in it: YADE integrates that to first order anyway."))
         ((long, lastStep, -1, Attr::readonly, "Last step that the ledger has booked [-]."))
         ((long, balancedStep, -1, Attr::readonly, "Step of the last balance [-]."))
         ((long, firstStep, -1, Attr::readonly, "Step at which the balance started [-]."))

@@ -42,6 +42,8 @@ inline void add_body(const Body& body, const EarlierMotion& earlier, ForceContai
     const int blocked = static_cast<int>(state.blockedDOFs);
     const int was_blocked = earlier.blocked < 0 ? blocked : earlier.blocked;
     const Real damping = state.isDamped ? step.damping : 0;
+    // A body that was not there before has not seen the step change.
+    const ge::StepWidths dt{step.dt.now, earlier.blocked < 0 ? step.dt.now : step.dt.before};
     const Vector3r& force = forces.getForce(body.id);
     const Vector3r& torque = forces.getTorque(body.id);
     Vector3r load = Vector3r::Zero(), load_torque = Vector3r::Zero();
@@ -63,20 +65,19 @@ inline void add_body(const Body& body, const EarlierMotion& earlier, ForceContai
         dof.damps_field = step.damps_gravity;
         dof.imposed = blocked & (State::DOF_X << axis);
         dof.was_imposed = was_blocked & (State::DOF_X << axis);
-        sums.kinetic_translation += ge::add(dof, step.dt, sums);
+        sums.kinetic_translation += ge::add(dof, dt, sums);
     }
     if (step.rotates_aspherically(body)) {
         Vector3r applied = torque;
         for (int axis = 0; axis < 3; ++axis)
             applied[axis] *= ge::cundall_factor(torque[axis], earlier.spin[axis], damping);
         for (int axis = 0; axis < 3; ++axis) {
-            const Real before = earlier.spin[axis] * step.dt.before, after = state.angVel[axis] * step.dt.now;
+            const Real before = earlier.spin[axis] * dt.before, after = state.angVel[axis] * dt.now;
             sums.load.add(load_torque[axis], before, after);
             sums.damping.add(applied[axis] - torque[axis], before, after);
         }
-        sums.step_change += 0.5 * applied.dot(earlier.spin) * (step.dt.now - step.dt.before);
         sums.kinetic_rotation +=
-            ge::kinetic_energy({state.ori, state.angMom, applied, state.inertia, step.dt.now});
+            ge::kinetic_energy({state.ori, state.angMom, applied, state.inertia, dt.now});
         return;
     }
     dof.field = 0;
@@ -88,7 +89,7 @@ inline void add_body(const Body& body, const EarlierMotion& earlier, ForceContai
         dof.load = load_torque[axis];
         dof.imposed = blocked & (State::DOF_RX << axis);
         dof.was_imposed = was_blocked & (State::DOF_RX << axis);
-        sums.kinetic_rotation += ge::add(dof, step.dt, sums);
+        sums.kinetic_rotation += ge::add(dof, dt, sums);
     }
 }
 
