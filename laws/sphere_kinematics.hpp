@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How the contact of two spheres, or of a sphere and a plane, lies and moves.
 //
-//   overlap  d = R1 + R2 - |x2 - x1|                                        (report, Eq 2 with its sign turned)
-//   shear    ds = dt (1 - n n) [a (v2 - v1) - (R1 w1 + R2 w2) x n],  a = (R1 + R2)/(R1 + R2 - d)
-//   tilt     old normal x new normal;   twist = dt/2 [old normal . (w1 + w2)] old normal
+//   overlap  d = R1 + R2 - |x2 - x1|                                        (report, Eq 2 with its sign
+//   turned) shear    ds = dt (1 - n n) [a (v2 - v1) - (R1 w1 + R2 w2) x n],  a = (R1 + R2)/(R1 + R2 - d) tilt
+//   old normal x new normal;   twist = dt/2 [old normal . (w1 + w2)] old normal
 //
-// a and the undeformed radii in place of the distances to the contact point are YADE's ("avoidGranularRatcheting",
-// after McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77:031304): a closed path of the spheres leaves
-// no shear behind. The normal velocity is that of the material at the contact point, where the force acts.
+// a and the undeformed radii in place of the distances to the contact point are YADE's
+// ("avoidGranularRatcheting", after McNamara, Garcia-Rojo & Herrmann 2008, Phys. Rev. E 77:031304): a closed
+// path of the spheres leaves no shear behind. The normal velocity is that of the material at the contact
+// point, where the force acts.
 #pragma once
 
 #include <laws/contact.hpp>

@@ -25,7 +25,7 @@ static_assert(sizeof(ContactState) == 64);
 struct ContactConstants {
     laws::ContactParameters parameters;
     union {
-        double coefficient;                // friction, where it is constant
+        double coefficient;               // friction, where it is constant
         const laws::friction::Any* curve; // elsewhere; the owner keeps it alive
     };
 };

@@ -116,7 +116,8 @@ private:
                     sample.push_back(at);
             }
             std::sort(sample.begin(), sample.end());
-            const double lower = sample[sample.size() / 50], upper = sample[sample.size() - 1 - sample.size() / 50];
+            const double lower = sample[sample.size() / 50],
+                         upper = sample[sample.size() - 1 - sample.size() / 50];
             const double room = 0.5 * (upper - lower);
             low_[axis] = std::max(least, lower - room);
             high[axis] = std::min(most, upper + room);

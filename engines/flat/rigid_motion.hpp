@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One leapfrog step of any rigid body, as YADE's NewtonIntegrator makes it. A body with three equal moments of
-// inertia, or with a blocked rotation, turns like a sphere; the others by the scheme of Allen & Tildesley
+// One leapfrog step of any rigid body, as YADE's NewtonIntegrator makes it. A body with three equal moments
+// of inertia, or with a blocked rotation, turns like a sphere; the others by the scheme of Allen & Tildesley
 // (Computer Simulation of Liquids, 1989, section 3.3): angular momentum J at the half steps in global axes,
 //
 //   w_n = Q_n I^-1 Q_n^T (J + T dt/2),  q_(n+1/2) = q_n + dt/2 dq/dt(w_n, q_n),

@@ -46,7 +46,8 @@ void recall_viscous_forces(const GrainPhys& phys, const Vector3r& normal, gl::Di
     const Real root_overlap = phys.kn / Normal::stiffness(phys.normalCoefficient, 1.0);
     const Real elastic = Normal::force(phys.normalCoefficient, root_overlap * root_overlap, root_overlap);
     // The normal has turned since: it gives the sign, not the length.
-    book.normal_viscous_force = std::copysign(phys.normalForce.norm(), phys.normalForce.dot(normal)) - elastic;
+    book.normal_viscous_force =
+        std::copysign(phys.normalForce.norm(), phys.normalForce.dot(normal)) - elastic;
     book.shear_viscous_force = phys.shearForce - phys.shearElastic;
 }
 

@@ -113,7 +113,8 @@ def state() -> dict[str, np.ndarray]:
     """Everything that a user can see of bodies and contacts, each an array; contacts in the order of their ids."""
     bodies = [body for body in O.bodies]
     contacts = sorted(
-        (i for i in O.interactions if i.isReal), key=lambda i: (min(i.id1, i.id2), max(i.id1, i.id2))
+        (i for i in O.interactions if i.isReal),
+        key=lambda i: (min(i.id1, i.id2), max(i.id1, i.id2)),
     )
     return {
         "position": np.array([b.state.pos for b in bodies]),
@@ -134,7 +135,9 @@ def state() -> dict[str, np.ndarray]:
     }
 
 
-def on_both_paths(build: Callable[[bool], None], steps: int) -> tuple[dict[str, Any], dict[str, Any]]:
+def on_both_paths(
+    build: Callable[[bool], None], steps: int
+) -> tuple[dict[str, Any], dict[str, Any]]:
     """What the scene looks like after so many steps: on the flat path, on the general path."""
     results = []
     for flat in (True, False):

@@ -255,7 +255,11 @@ def test_what_cannot_run_flat_runs_on_the_general_path_and_says_why():
         O.bodies.append(utils.sphere((0.01, 0.01, 0.01), 0.004, material=O.materials[0]))
         O.periodic = True
 
-    for scene, reason in ((clumps, "clumps"), (stock_integrator, "GrainIntegrator"), (periodic, "periodic")):
+    for scene, reason in (
+        (clumps, "clumps"),
+        (stock_integrator, "GrainIntegrator"),
+        (periodic, "periodic"),
+    ):
         O.reset()
         scene()
         O.run(10, True)
@@ -287,9 +291,7 @@ def test_far_flung_grains_do_not_hide_neighbours():
     """Two grains meet 10 km away from the pack, beyond the cells that cover it."""
     O.reset()
     build(True)
-    far = [
-        utils.sphere((1e4 + x, 0, 0), 0.005, material=O.materials[0]) for x in (0.0, 0.0102)
-    ]
+    far = [utils.sphere((1e4 + x, 0, 0), 0.005, material=O.materials[0]) for x in (0.0, 0.0102)]
     far[0].state.vel = (1, 0, 0)
     O.bodies.append(far)
     O.run(40, True)

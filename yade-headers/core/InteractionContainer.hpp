@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Facts: InteractionContainer is 192 bytes, its linear vector (real and potential interactions) at 24; find,
-// insert, erase and requestErase are exported; Python does not know the class; an erased interaction stays as potential
-// until the collider drops it. Verified: tests/abi.
+// insert, erase and requestErase are exported; Python does not know the class; an erased interaction stays as
+// potential until the collider drops it. Verified: tests/abi.
 #pragma once
 
 #include <core/BodyContainer.hpp>

@@ -146,9 +146,9 @@ bool EnergyLedger::needs_every_body(const Scene& in) const {
            in.dt != lastTimeStep || lastStep + 1 != in.iter;
 }
 
-/// Sum over the bodies that the integrator moves; `add(id, body, sums)` runs in several threads. Where nothing
-/// is known of the grains of the flat path they are left out: they are free and exchange energy with contacts
-/// and gravity only.
+/// Sum over the bodies that the integrator moves; `add(id, body, sums)` runs in several threads. Where
+/// nothing is known of the grains of the flat path they are left out: they are free and exchange energy with
+/// contacts and gravity only.
 template <class Add>
 ge::StepSums EnergyLedger::sum_over_bodies(const Add& add) {
     const auto& bodies = scene->bodies->body;

@@ -139,14 +139,14 @@ private:
     };
 
     grainfall::flat::Bodies bodies_;
-    vector<Body*> yade_;     // by index
-    vector<int> index_of_;   // by id, -1: not flat
+    vector<Body*> yade_;   // by index
+    vector<int> index_of_; // by id, -1: not flat
     vector<Body*> others_;
     vector<Roamer> roamers_;
     Real giant_radius_ = 0;
     vector<int> giants_;
     vector<int> touched_by_others_; // flat spheres in general pairs, by index
-    vector<Anchor> anchors_; // by index
+    vector<Anchor> anchors_;        // by index
     vector<grainfall::flat::Motion> earlier_;
     vector<Domain> domains_;
     GeneralPairs general_;

@@ -58,9 +58,9 @@ void GrainIntegrator::move_other(Body& body, const gf::StepRules& rules) {
     const Vector3r& torque = scene->forces.getTorque(body.id);
     if (scene->trackEnergy)
         book(body, force, torque);
-    gf::RigidBody rigid{state.pos,       state.ori,
-                        state.vel,       state.angVel,
-                        state.angMom,    {state.mass, state.inertia, state.blockedDOFs, state.isDamped}};
+    gf::RigidBody rigid{state.pos,    state.ori,
+                        state.vel,    state.angVel,
+                        state.angMom, {state.mass, state.inertia, state.blockedDOFs, state.isDamped}};
     gf::advance(rigid, force, torque, rules, exactAsphericalRot && body.isAspherical());
 }
 
@@ -73,9 +73,9 @@ void GrainIntegrator::book(const Body& body, const Vector3r& force, const Vector
     booked_.gravity_work -= gravity.dot(state.vel) * state.mass * scene->dt;
     if (damping != 0 && state.isDamped) {
         const Vector3r push = force + state.mass * gravity;
-        booked_.damping += (state.vel.cwiseAbs().dot(push.cwiseAbs()) +
-                            state.angVel.cwiseAbs().dot(torque.cwiseAbs())) *
-                           damping * scene->dt;
+        booked_.damping +=
+            (state.vel.cwiseAbs().dot(push.cwiseAbs()) + state.angVel.cwiseAbs().dot(torque.cwiseAbs())) *
+            damping * scene->dt;
     }
 }
 

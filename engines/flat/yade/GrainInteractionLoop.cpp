@@ -85,8 +85,9 @@ void GrainInteractionLoop::take_over_between() {
         grains_->take_over_states();
         return;
     }
-    throw std::runtime_error("bodies were added or erased between GrainInteractionLoop and GrainIntegrator: do it "
-                             "before the loop or after the integrator, or set GrainInteractionLoop.flat = False");
+    throw std::runtime_error(
+        "bodies were added or erased between GrainInteractionLoop and GrainIntegrator: do it "
+        "before the loop or after the integrator, or set GrainInteractionLoop.flat = False");
 }
 
 bool GrainInteractionLoop::can_run_flat() {
@@ -135,7 +136,8 @@ void GrainInteractionLoop::rest_collider(bool rest) {
     restsCollider = rest;
     if (rest)
         return;
-    // It stands before this loop and has not looked at the scene for long: begin anew, and in this step already.
+    // It stands before this loop and has not looked at the scene for long: begin anew, and in this step
+    // already.
     scene->interactions->dirty = true;
     collider->scene = scene;
     if (collider->isActivated())

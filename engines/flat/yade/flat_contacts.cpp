@@ -37,7 +37,8 @@ void FlatGrains::contacts(Scene& scene, const FlatTables::Pair& tables, bool pub
         publish_forces(scene);
 }
 
-/// The dashpots' last forces are known if the last step was published; else their first half step is not booked.
+/// The dashpots' last forces are known if the last step was published; else their first half step is not
+/// booked.
 void FlatGrains::start_booking(bool booking) {
     booking_ = booking;
     for (Domain& domain : domains_)
@@ -141,12 +142,13 @@ bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& mad
         throw std::runtime_error("no Ip2 functor for " + body1->material->getClassName() + " and " +
                                  body2->material->getClassName());
     const shared_ptr<Interaction> contact(new Interaction(body1->id, body2->id));
-    if (!geometry->go(body1->shape, body2->shape, *body1->state, *body2->state, Vector3r::Zero(), false, contact))
+    if (!geometry->go(body1->shape, body2->shape, *body1->state, *body2->state, Vector3r::Zero(), false,
+                      contact))
         return false;
     physics->go(body1->material, body2->material, contact);
     if (!dynamic_cast<GrainPhys*>(contact->phys.get()))
         throw std::runtime_error(physics->getClassName() + " does not make GrainPhys: set "
-                                 "GrainInteractionLoop.flat = False");
+                                                           "GrainInteractionLoop.flat = False");
     contact->functorCache.geom = geometry;
     contact->functorCache.phys = physics;
     contact->iterMadeReal = contact->iterLastSeen = scene.iter;

@@ -35,7 +35,7 @@ struct FlatLoop {
     const grainfall::flat::Bodies& bodies;
     grainfall::flat::Load* loads; // of all bodies, for this thread
     Real time_step;
-    bool publish;                // write YADE's objects too
+    bool publish; // write YADE's objects too
     FlatBook& book;
     std::vector<size_t>& opened; // contacts whose bodies have parted, ascending
 };
@@ -231,11 +231,10 @@ FlatTable make_table() {
 
 template <class Tangential>
 const FlatTables& make_tables() {
-    static const FlatTables tables{
-        {make_table<gl::Hertz, Tangential, gl::NoEnergy>(),
-         make_table<gl::Hertz, Tangential, gl::DissipationBook>()},
-        {make_table<gl::ReportNormal, Tangential, gl::NoEnergy>(),
-         make_table<gl::ReportNormal, Tangential, gl::DissipationBook>()}};
+    static const FlatTables tables{{make_table<gl::Hertz, Tangential, gl::NoEnergy>(),
+                                    make_table<gl::Hertz, Tangential, gl::DissipationBook>()},
+                                   {make_table<gl::ReportNormal, Tangential, gl::NoEnergy>(),
+                                    make_table<gl::ReportNormal, Tangential, gl::DissipationBook>()}};
     return tables;
 }
 

@@ -21,9 +21,9 @@ void book(FlatGrains::MotionBook& sums, const gf::Inertia& inertia, const gf::Mo
     if (rules.damping == 0 || !inertia.damped)
         return;
     const Vector3r push = force + inertia.mass * rules.gravity;
-    sums.damping += (motion.velocity.cwiseAbs().dot(push.cwiseAbs()) +
-                     motion.spin.cwiseAbs().dot(torque.cwiseAbs())) *
-                    rules.damping * rules.time_step;
+    sums.damping +=
+        (motion.velocity.cwiseAbs().dot(push.cwiseAbs()) + motion.spin.cwiseAbs().dot(torque.cwiseAbs())) *
+        rules.damping * rules.time_step;
 }
 
 } // namespace
@@ -76,8 +76,8 @@ Real FlatGrains::move(Scene& scene, const gf::StepRules& rules, bool keep_veloci
         result.fastest = std::max(result.fastest, bodies_.motions[at].velocity.squaredNorm());
         const Anchor& anchor = anchors_[at];
         // Not a number counts as moved.
-        result.beyond_margin |= !((bodies_.places[at].centre - anchor.centre).squaredNorm() <=
-                                  anchor.margin * anchor.margin);
+        result.beyond_margin |=
+            !((bodies_.places[at].centre - anchor.centre).squaredNorm() <= anchor.margin * anchor.margin);
     }
     return result;
 }
@@ -93,7 +93,7 @@ void FlatGrains::publish_state(size_t at) const {
 void FlatGrains::publish_states() {
     ++census.publications;
     states_published_ = true;
-#pragma omp parallel for schedule(static) num_threads(static_cast<int>(domains_.size()))
+#pragma omp parallel for schedule(static) num_threads(static_cast <int>(domains_.size()))
     for (int i = 0; i < bodies_.spheres(); ++i)
         publish_state(static_cast<size_t>(i));
 }

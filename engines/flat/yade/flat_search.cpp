@@ -69,8 +69,7 @@ vector<FlatGrains::Imported> FlatGrains::collect_contacts() {
         for (FlatContacts& segment : domain.segments) {
             for (size_t i = 0; i < segment.size(); ++i) {
                 contacts.push_back({segment.contact_class, segment.states[i], segment.constants[i],
-                                    segment.owners[i],
-                                    booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
+                                    segment.owners[i], booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
             }
         }
         domain.segments.clear();
@@ -149,7 +148,8 @@ void FlatGrains::place_contacts(const vector<Imported>& contacts) {
         const Imported& contact = contacts[i];
         while (owner_of(contact.state) >= domains_[d].end)
             ++d;
-        domains_[d].segment(contact.contact_class)
+        domains_[d]
+            .segment(contact.contact_class)
             .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
         const int higher = std::max(contact.state.first, contact.state.second);
         if (!bodies_.is_plane(higher))
@@ -235,8 +235,8 @@ FlatGrains::Box FlatGrains::room_of(const Body& body, Reach reach) {
 bool FlatGrains::others_have_moved() {
     for (const Roamer& roamer : roamers_) {
         const State& state = *roamer.body->state;
-        const bool rests = state.vel == Vector3r::Zero() && state.angVel == Vector3r::Zero() &&
-                           state.pos == roamer.centre;
+        const bool rests =
+            state.vel == Vector3r::Zero() && state.angVel == Vector3r::Zero() && state.pos == roamer.centre;
         if (!rests && !roamer.room.holds(box_of(*roamer.body)))
             return true;
     }

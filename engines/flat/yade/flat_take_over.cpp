@@ -58,7 +58,8 @@ void FlatGrains::take_over(Scene& scene, int threads) {
     // Not yet in space: the first domain holds all until the search.
     domains_[0].end = bodies_.spheres();
     for (const Imported& contact : contacts)
-        domains_[0].segment(contact.contact_class)
+        domains_[0]
+            .segment(contact.contact_class)
             .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
     moved_ = true;
     forces_published_ = false;

@@ -59,8 +59,8 @@ void GeneralPairs::add(Body& one, Body& other, FunctorLists& functors) {
     if (found.swapped)
         std::swap(first, second);
     places_[key(one, other)] = pairs_.size();
-    pairs_.push_back({shared_ptr<Interaction>(new Interaction(first->id, second->id)), first, second,
-                      found.functor});
+    pairs_.push_back(
+        {shared_ptr<Interaction>(new Interaction(first->id, second->id)), first, second, found.functor});
 }
 
 void GeneralPairs::step(GeneralPair& pair, Scene& scene, FunctorLists& functors) {

@@ -58,6 +58,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
     summary.update(coarsening(p, bed))
     summary["largest_overlap_over_radius"] = run.snapshots.largest_relative_overlap
     summary["effects"] = dict(builtins.contact_law.effects)
+    summary["path"] = getattr(builtins.contacts, "path", "general")
     if p["moisture"] > 0 and p["bridges"] != "none":
         summary["water"] = water_budget()
     summary["price"] = engine_seconds(run.clock, "drop", run.earlier["price"])

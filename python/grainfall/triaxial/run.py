@@ -176,7 +176,11 @@ class TriaxialRun:
     def _build(self, sand: Sand) -> None:
         """The sample in an empty scene, of this sand."""
         scene.build(
-            self.sample, sand, self.parameters["platen_friction"], self.parameters["gravity"]
+            self.sample,
+            sand,
+            self.parameters["platen_friction"],
+            self.parameters["gravity"],
+            self.parameters["path"],
         )
 
     def _change_friction(self, sand: Sand) -> None:

@@ -66,9 +66,7 @@ def build(
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
         contact_loop(sand, [pair], [], path),
-        integrator(
-            path, gravity=(0, 0, -GRAVITY if gravity else 0), damping=0, label="integrator"
-        ),
+        integrator(path, gravity=(0, 0, -GRAVITY if gravity else 0), damping=0, label="integrator"),
     ]
     restore_contacts(sample)
 

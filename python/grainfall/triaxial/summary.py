@@ -117,6 +117,7 @@ def make_summary(run: TriaxialRun) -> dict[str, Any]:
     summary["displacement_peak_to_peak_m"] = peak_to_peak(p)
     summary.update(_scaling(run))
     summary["effects"] = dict(builtins.contact_law.effects)
+    summary["path"] = getattr(builtins.contacts, "path", "general")
     if p["moisture"] > 0 and p["bridges"] != "none":
         summary["water"] = water_budget()
     summary["price"] = engine_seconds(run.clock, "cycles", run.finished["price"])
