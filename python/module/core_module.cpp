@@ -4,6 +4,7 @@
 // YADE is the one that the module was compiled for. Registration is not part of the module's initialisation
 // because an error raised there reaches Python without its message.
 #include "register_classes.hpp"
+#include "scene_file.hpp"
 
 #include <lib/base/Math.hpp>
 
@@ -22,4 +23,6 @@ BOOST_PYTHON_MODULE(_core) {
     boost::python::def(
         "register_classes", &register_classes,
         "Register in the running YADE the classes that are not there yet; returns their names.");
+    boost::python::def("write_scene", &grainfall::write_scene, boost::python::arg("path"),
+                       "Write what O.save would, in YADE's binary format; O.filename stays as it is.");
 }
