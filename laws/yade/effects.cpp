@@ -118,7 +118,7 @@ void add_contacts(EffectList& list, const Scene& scene, bool frictional) {
     int moist = 0, scaled = 0;
     const Counts counts = count_contacts(scene, [&](const GrainPhys& phys) {
         moist += phys.friction && phys.moisture > 0 && phys.friction->depends_on_moisture();
-        scaled += phys.loadScale != 1 && (phys.friction || phys.bridge);
+        scaled += phys.loadScale != 1 && ((frictional && phys.friction) || phys.bridge);
     });
     for (int index = 0; index < ContactClass::count; ++index) {
         const int contacts = counts[static_cast<std::size_t>(index)];

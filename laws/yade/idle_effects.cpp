@@ -63,14 +63,24 @@ bool is_zero(const FrictionCurve& curve, Real moisture) {
     return form_of(*resolved) == FrictionForm::constant && resolved->coefficient(1) == 0;
 }
 
+/// Who bears a curve of this kind, separated by commas.
+template <class Kind>
+std::string owners_of(const Asked& asked, const Kind& kind) {
+    std::string owners;
+    for (const NamedCurve& named : asked.curves)
+        if (kind(*named.curve))
+            owners += (owners.empty() ? "" : ", ") + named.owner;
+    return owners;
+}
+
 void check_moisture(const Asked& asked, Sentences& sentences) {
     const bool read = std::any_of(asked.curves.begin(), asked.curves.end(),
                                   [](const NamedCurve& c) { return c.curve->depends_on_moisture(); });
     if (!asked.wet) {
-        for (const NamedCurve& c : asked.curves)
-            if (c.curve->depends_on_moisture())
-                sentences.push_back(c.owner +
-                                    ": its friction depends on moisture, but the scene has no water");
+        const std::string owners =
+            owners_of(asked, [](const FrictionCurve& curve) { return curve.depends_on_moisture(); });
+        if (!owners.empty())
+            sentences.push_back(owners + ": friction depends on moisture, but the scene has no water");
     } else if (!read && !asked.bridges) {
         for (const GrainMat* m : asked.materials)
             if (m->gravimetricMoisture > 0)
@@ -123,9 +133,10 @@ void check_damping(const Asked& asked, bool attraction, Sentences& sentences) {
 
 void check_friction(const Asked& asked, const std::string& tangential_law, Sentences& sentences) {
     if (tangential_law == "none") {
-        for (const NamedCurve& c : asked.curves)
-            if (!is_zero(*c.curve, 0))
-                sentences.push_back(c.owner + ": its friction has no effect with tangentialLaw 'none'");
+        const std::string owners =
+            owners_of(asked, [](const FrictionCurve& curve) { return !is_zero(curve, 0); });
+        if (!owners.empty())
+            sentences.push_back(owners + ": friction has no effect with tangentialLaw 'none'");
         return;
     }
     if (tangential_law == "incremental" || asked.materials.empty())

@@ -8,6 +8,8 @@
 
 #include <lib/base/Math.hpp>
 
+#include <boost/python/stl_iterator.hpp>
+
 namespace {
 
 boost::python::list register_classes() {
@@ -17,12 +19,17 @@ boost::python::list register_classes() {
     return names;
 }
 
+void write_scene(const std::string& path, const boost::python::list& left_out) {
+    grainfall::write_scene(path, {boost::python::stl_input_iterator<std::string>(left_out), {}});
+}
+
 } // namespace
 
 BOOST_PYTHON_MODULE(_core) {
     boost::python::def(
         "register_classes", &register_classes,
         "Register in the running YADE the classes that are not there yet; returns their names.");
-    boost::python::def("write_scene", &grainfall::write_scene, boost::python::arg("path"),
-                       "Write what O.save would, in YADE's binary format; O.filename stays as it is.");
+    boost::python::def(
+        "write_scene", &write_scene, (boost::python::arg("path"), boost::python::arg("left_out")),
+        "Write what O.save would, but for engines of these classes; O.filename stays as it is.");
 }
