@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace yade {
@@ -99,8 +100,8 @@ void check_bridges(const Asked& asked, Sentences& sentences) {
             sentences.push_back(name + ": liquidViscosity has no effect: the scene has no liquid bridges");
         if (m->relative_bridge_volume() > gb::largest_pendular_volume) {
             std::ostringstream text;
-            text << name << ": bridges hold " << m->relative_bridge_volume() << " R^3; above "
-                 << gb::largest_pendular_volume
+            text << std::setprecision(3) << name << ": bridges hold " << m->relative_bridge_volume()
+                 << " R^3; above " << gb::largest_pendular_volume
                  << " R^3 those of neighbouring contacts merge, so that separate (pendular) bridges are an "
                     "approximation";
             sentences.push_back(text.str());

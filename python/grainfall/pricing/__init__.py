@@ -88,7 +88,10 @@ def write_request(folder: Path, seconds: float) -> Path:
     ledgers = [e for e in O.engines if isinstance(e, yade.wrapper.EnergyLedger)]
     scene, forces = folder / "scene.yade", folder / "permanent_forces.npy"
     _core.write_scene(str(scene), [*still, "EnergyLedger"])
-    ids = range(len(O.bodies))
+    # YADE may be asked for permanent forces only where there are any, and once it has made room for all bodies.
+    ids = range(len(O.bodies)) if O.forces.getPermForceUsed() else range(0)
+    if ids:
+        O.forces.f(0, sync=True)
     np.save(forces, np.array([[*O.forces.permF(i), *O.forces.permT(i)] for i in ids]))
     request = {
         "seconds": seconds,

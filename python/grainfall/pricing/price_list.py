@@ -30,7 +30,7 @@ class EffectPrice:
     change_position_m: float | None
     #: Relative change of the sum of the normal forces in the contacts [-].
     change_contact_force: float | None
-    #: Change of the kinetic energy [J], and of the energy stored in contacts.
+    #: Change of the kinetic energy [J], and of the energy in the springs of the contacts.
     change_kinetic_J: float | None
     change_stored_J: float | None
 
@@ -47,7 +47,7 @@ class PriceList:
     threads: int
     #: What was measured: processor time (one thread) or wall time of the engines.
     clock: str
-    #: Kinetic energy and energy stored in contacts at the end of the run of the scene as it is [J].
+    #: Kinetic energy and energy in the springs of the contacts at the end of the run of the scene as it is [J].
     kinetic_J: float
     stored_J: float
     #: Engines that were left out of the runs.

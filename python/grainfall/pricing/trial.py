@@ -18,6 +18,7 @@ from yade import O, utils
 
 import grainfall  # noqa: F401  registers the classes
 from grainfall.effects import contact_law
+from grainfall.materials import check_scene
 from grainfall.pricing.variants import Variant, add_ledger, remove_engines, variants
 from grainfall.running import advance
 
@@ -52,12 +53,7 @@ class Trial:
         if variant is None:
             self.variants = variants(self.request["ledger_period"])
         remove_engines(*STEPPERS)
-        for functors in [
-            e.physDispatcher.functors for e in O.engines if hasattr(e, "physDispatcher")
-        ]:
-            for functor in functors:
-                if hasattr(functor, "idleEffects"):
-                    functor.idleEffects()  # the user has been told
+        check_scene()  # the user has been told
         if variant is not None:
             variant.apply()
         self.bytes_per_copy = max(self.bytes_per_copy, resident_bytes() - before, 1)
@@ -94,7 +90,7 @@ def state() -> dict[str, Any]:
         "positions": {b.id: np.array(b.state.pos) for b in O.bodies},
         "force": float(sum(forces)),
         "kinetic": float(utils.kineticEnergy()),
-        "stored": float(sum(stored.values())),
+        "stored": stored["normal"] + stored["shear"],
         "contacts": len(forces),
     }
 
