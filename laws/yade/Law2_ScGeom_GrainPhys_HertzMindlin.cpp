@@ -10,7 +10,7 @@
 #include <core/Omega.hpp>
 
 #include <algorithm>
-#include <set>
+#include <vector>
 
 namespace yade {
 
@@ -18,21 +18,23 @@ YADE_PLUGIN((Law2_ScGeom_GrainPhys_HertzMindlin));
 CREATE_LOGGER(Law2_ScGeom_GrainPhys_HertzMindlin);
 
 namespace {
-// All laws alive, so that whoever makes contacts finds the one that will serve them.
+// All laws alive in the order in which they were made, so that whoever makes contacts finds the one that will
+// serve them.
 std::mutex laws_mutex;
-std::set<const Law2_ScGeom_GrainPhys_HertzMindlin*> laws;
+std::vector<const Law2_ScGeom_GrainPhys_HertzMindlin*> laws;
 } // namespace
 
 Law2_ScGeom_GrainPhys_HertzMindlin::~Law2_ScGeom_GrainPhys_HertzMindlin() {
     const std::lock_guard<std::mutex> lock(laws_mutex);
-    laws.erase(this);
+    laws.erase(std::remove(laws.begin(), laws.end(), this), laws.end());
 }
 
 const Law2_ScGeom_GrainPhys_HertzMindlin* Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(const Scene& where) {
     const std::lock_guard<std::mutex> lock(laws_mutex);
+    // The youngest: a law left over from an earlier scene may point to where this one stands now.
     const auto found =
-        std::find_if(laws.begin(), laws.end(), [&where](const auto* law) { return law->scene == &where; });
-    return found == laws.end() ? nullptr : *found;
+        std::find_if(laws.rbegin(), laws.rend(), [&where](const auto* law) { return law->scene == &where; });
+    return found == laws.rend() ? nullptr : *found;
 }
 
 bool Law2_ScGeom_GrainPhys_HertzMindlin::go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
@@ -66,7 +68,8 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
     const KernelTables::Pair& pair = normalLaw == "report" ? tables.report : tables.hertz;
     kernels_ = {&pair.plain, &pair.booking};
     const std::lock_guard<std::mutex> lock(laws_mutex);
-    laws.insert(this);
+    if (std::find(laws.begin(), laws.end(), this) == laws.end())
+        laws.push_back(this);
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::name_energies() {

@@ -62,11 +62,11 @@ def heap(
     material: Mapping[str, Any] | None = None,
     tangential_law: str = "mindlin-deresiewicz",
     engines: bool = True,
+    pitch: float = 2.05 * RADIUS,
 ) -> None:
-    """Grains that fall into a box, side^3 of them; label of the law: ``law``."""
+    """Grains that fall into a box, side^3 of them, `pitch` [m] apart; label of the law: ``law``."""
     values = {**ALL_EFFECTS, "friction": friction()} if material is None else material
     O.materials.append(GrainMat(label="sand", **values))
-    pitch = 2.05 * RADIUS
     for i in range(side**3):
         x, y, z = i % side, i // side % side, i // side**2
         shift = 0.1 * RADIUS * math.sin(7.0 * i)
@@ -94,9 +94,9 @@ def heap(
 
 def main(output: str) -> None:
     """Settle the heap a little, price it, write what came out."""
-    heap()
-    O.run(800, True)
-    prices = grainfall.price(seconds=0.3, show=False)
+    heap(side=3, pitch=1.99 * RADIUS)
+    O.run(5, True)
+    prices = grainfall.price(seconds=0.02, show=False)
     with open(output, "w", encoding="utf-8") as file:
         json.dump(prices.as_dict(), file)
 

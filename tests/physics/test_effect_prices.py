@@ -52,8 +52,9 @@ def priced() -> dict:
         if given:
             labels = (builtins.law, builtins.ledger, builtins.user_runner)
             objects = [O.bodies[0], O.bodies[-1], O.engines[-1], O.materials[0]]
-            found["before"], found["filename"] = numbers(), O.filename
+            # First the ledger, which settles its books when it is asked.
             found["ledger"] = (builtins.ledger.residual, builtins.ledger.largestResidual)
+            found["before"], found["filename"] = numbers(), O.filename
             called = len(calls)
             found["prices"] = grainfall.price(seconds=0.4, show=False)
             found["after"], found["filename after"] = numbers(), O.filename
