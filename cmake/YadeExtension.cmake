@@ -42,6 +42,11 @@ file(GLOB extension_sources CONFIGURE_DEPENDS
     "${PROJECT_SOURCE_DIR}/python/module/*.cpp")
 add_library(grainfall_core MODULE ${extension_sources})
 target_link_libraries(grainfall_core PRIVATE yade_interface grainfall_warnings)
+# At -O2 the compiler leaves Eigen's loops over three numbers out of line where several kernels share them, and a
+# contact costs a fifth more than the same law written by hand (benchmarks/effect_cost/measure.py).
+file(GLOB contact_kernels "${PROJECT_SOURCE_DIR}/laws/yade/contact_kernels_*.cpp"
+     "${PROJECT_SOURCE_DIR}/laws/yade/wet_contact.cpp")
+set_source_files_properties(${contact_kernels} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 # Boost.Python and Eigen are most of a translation unit's compile time.
 target_precompile_headers(grainfall_core PRIVATE <lib/serialization/Serializable.hpp>)
 set(package_dir "${PROJECT_BINARY_DIR}/python/grainfall")

@@ -46,9 +46,13 @@ class Dump:
         return self._names[number]
 
     def inclusive(self, pattern: str) -> tuple[int, int]:
-        """Calls of the functions whose name matches, and their instructions, callees included."""
+        """Calls and instructions, callees included, of the outermost function whose name matches.
+
+        A functor is entered through a thunk, a wet kernel calls the dry one: the outermost has the most.
+        """
         found = [entry for name, entry in self.called.items() if re.search(pattern, name)]
-        return sum(calls for calls, _ in found), sum(cost for _, cost in found)
+        calls, cost = max(found, key=lambda entry: entry[1], default=(0, 0))
+        return calls, cost
 
 
 def read_dumps(folder: Path, stem: str) -> dict[str, Dump]:

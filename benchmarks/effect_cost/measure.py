@@ -82,14 +82,12 @@ def count(build: Path) -> dict[str, dict[str, Any]]:
         dump = dumps[name]
         contacts = facts["contacts"]
         calls, functor = dump.inclusive(FUNCTOR)
-        if calls != contacts * answer["steps"]:
+        # A contact may open or form within the few steps.
+        if abs(calls / (contacts * answer["steps"]) - 1) > 0.005:
             sys.exit(
                 f"{name}: {calls} calls of the law for {contacts} contacts: nothing to compare"
             )
-        own = name.startswith("plain")
-        kernel = functor if own else dump.inclusive(KERNEL)[1]
-        if not own and "bridges" in name:  # the wet kernel calls the dry one: count it once
-            kernel = functor
+        kernel = functor if name.startswith("plain") else dump.inclusive(KERNEL)[1]
         result[name] = {
             "contacts": contacts,
             "sliding": facts["sliding"],
