@@ -7,8 +7,6 @@
 // out for that alone. `template` is the same physics from the policies. The others switch one effect on or
 // off. Every law sees the same contacts. Prints the sum of forces (N), of stiffnesses (N/m) and the number of
 // sliding contacts, the same for the first two.
-#include "handwritten_law.hpp"
-
 #include <laws/friction/any.hpp>
 #include <laws/hertz_mindlin.hpp>
 #include <laws/pair_rules.hpp>
@@ -42,9 +40,46 @@ struct Handwritten {
     using Curve = friction::Constant;
     using Book = NoEnergy;
 
-    static ContactForce step(const ContactGeometry& geometry, const ContactParameters& parameters,
-                             const Curve& friction, ContactMemory& memory, NoEnergy&) {
-        return grainfall::benchmarks::handwritten_step<true, true>(geometry, parameters, friction.mu, memory);
+    static ContactForce step(const ContactGeometry& g, const ContactParameters& p, const Curve& friction,
+                             ContactMemory& memory, NoEnergy&) {
+        const double root = std::sqrt(g.overlap), quarter = std::sqrt(root);
+        ContactForce out;
+        out.normal_stiffness = 1.5 * p.normal_coefficient * root;
+        out.normal = std::max(0.0, p.normal_coefficient * (g.overlap * root) -
+                                       p.normal_damping * quarter * g.normal_velocity);
+        const double ks = p.shear_coefficient * root;
+        out.shear_stiffness = ks;
+
+        const Vector half = 0.5 * (g.tilt + g.twist);
+        const Vector turned = half.cross(memory.shear_force);
+        Vector shear = memory.shear_force + (2 / (1 + half.squaredNorm())) * (turned + half.cross(turned));
+        const double normal_part = shear.dot(g.normal), length2 = shear.squaredNorm();
+        shear -= normal_part * g.normal;
+        const double lost = normal_part * normal_part;
+        if (lost > 1e-20 * length2 && lost < length2)
+            shear *= std::sqrt(length2 / (length2 - lost));
+        if (ks < memory.shear_stiffness)
+            shear *= ks / memory.shear_stiffness;
+        shear -= ks * g.shear_increment;
+
+        Vector viscous = (-p.shear_damping * quarter / g.time_step) * g.shear_increment;
+        Vector total = shear + viscous;
+        const double limit = friction.mu * out.normal, limit2 = limit * limit;
+        const double shear2 = shear.squaredNorm();
+        if (shear2 > limit2) {
+            shear *= limit / std::sqrt(shear2);
+            total = shear + viscous;
+            out.sliding = true;
+        }
+        const double total2 = total.squaredNorm();
+        if (total2 > limit2) {
+            total *= limit / std::sqrt(total2);
+            out.sliding = true;
+        }
+        out.shear = total;
+        memory.shear_force = shear;
+        memory.shear_stiffness = ks;
+        return out;
     }
 };
 

@@ -5,9 +5,9 @@
 //
 // It also tells callgrind when to count.
 #include "../../python/module/register_classes.hpp"
-#include "../handwritten_law.hpp"
 
-#include <laws/damping.hpp>
+#include <laws/friction/constant.hpp>
+#include <laws/hertz_mindlin.hpp>
 #include <laws/pair_rules.hpp>
 #include <laws/yade/contact_rotation.hpp>
 
@@ -111,8 +111,12 @@ template <bool sheared, bool damped>
     gl::ContactMemory memory;
     memory.shear_force = phys.shearElastic;
     memory.shear_stiffness = phys.ks;
-    const gl::ContactForce force = grainfall::benchmarks::handwritten_step<sheared, damped>(
-        geometry, parameters, phys.tangensOfFrictionAngle, memory);
+    using Tangential = std::conditional_t<sheared, gl::IncrementalTangential, gl::NoTangential>;
+    using Damping = std::conditional_t<damped, gl::RepulsiveDashpot, gl::NoDamping>;
+    gl::NoEnergy none;
+    const gl::ContactForce force =
+        gl::HertzMindlin<gl::Hertz, Tangential, Damping, gl::friction::Constant, gl::NoEnergy>::step(
+            geometry, parameters, gl::friction::Constant{phys.tangensOfFrictionAngle}, memory, none);
     phys.kn = force.normal_stiffness;
     phys.ks = force.shear_stiffness;
     phys.normalForce = force.normal * geom.normal;
