@@ -35,6 +35,7 @@ test: build
 bench: build
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/law_cost.py
 	/usr/bin/python3 benchmarks/instruction_count.py $(BUILD)
+	/usr/bin/python3 benchmarks/effect_cost/measure.py $(BUILD)
 
 # Error against time for every knob that buys accuracy: docs/accuracy.md.
 accuracy: package

@@ -114,7 +114,10 @@ public:
     virtual ~TableFriction();
     grainfall::laws::friction::TableGrid kernel() const { return {loads, moistures, mu}; }
     grainfall::laws::friction::Any at_moisture(Real moisture) const override {
-        return kernel().at_moisture(moisture);
+        const auto row = kernel().at_moisture(moisture);
+        if (loads.size() == 1)
+            return grainfall::laws::friction::Constant{row.coefficient(loads[0])}; // nothing to look up
+        return row;
     }
     bool depends_on_moisture() const override { return moistures.size() > 1 || moistureFactor; }
     void validate() const override { kernel().validate(); }

@@ -19,6 +19,22 @@ void GrainPhys::part() {
     isSliding = false;
 }
 
+void GrainPhys::go_on_from(const GrainPhys& before) {
+    kn = before.kn;
+    ks = before.ks;
+    normalForce = before.normalForce;
+    shearForce = before.shearForce;
+    shearElastic = before.shearElastic;
+    partialSlip = before.partialSlip;
+    isSliding = before.isSliding;
+    if (!bridge)
+        return;
+    if (before.bridge)
+        bridge->remember(before.bridge->memory());
+    else
+        bridge->formed = kn > 0;
+}
+
 FrictionForm GrainPhys::simplified_friction() {
     namespace friction_kernels = grainfall::laws::friction;
     FrictionForm form = form_of(*resolved_);

@@ -26,6 +26,9 @@ public:
     /// The bodies have parted but stay in touch through a liquid bridge: the next touch starts afresh.
     void part();
 
+    /// Takes over forces, slip and bridge of the contact that this one replaces.
+    void go_on_from(const GrainPhys& before);
+
     /// Rebuilds what is not saved.
     void resolve_friction();
     void postLoad(GrainPhys&) { resolve_friction(); }

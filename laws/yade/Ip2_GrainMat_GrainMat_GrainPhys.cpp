@@ -3,9 +3,13 @@
 
 #include <laws/pair_rules.hpp>
 #include <laws/yade/FrictionCurves.hpp>
+#include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
+#include <laws/yade/idle_effects.hpp>
 
 #include <core/Body.hpp>
 #include <core/Interaction.hpp>
+#include <core/InteractionContainer.hpp>
+#include <core/Omega.hpp>
 #include <core/Scene.hpp>
 #include <core/Shape.hpp>
 #include <core/State.hpp>
@@ -105,8 +109,13 @@ Real Ip2_GrainMat_GrainMat_GrainPhys::pair_restitution(const GrainMat& m1, const
                        m2.restitution);
 }
 
-void Ip2_GrainMat_GrainMat_GrainPhys::warn_beyond_pendular(const LiquidBridge& bridge) {
-    if (bridge.relativeVolume <= gl::bridge::largest_pendular_volume || warned_.exchange(true))
+void Ip2_GrainMat_GrainMat_GrainPhys::warn_beyond_pendular(const LiquidBridge& bridge, const GrainMat& mat1,
+                                                           const GrainMat& mat2) {
+    namespace gb = gl::bridge;
+    // Of grains that are too wet beside their like the check of the scene tells.
+    const bool told = mat1.relative_bridge_volume() > gb::largest_pendular_volume ||
+                      mat2.relative_bridge_volume() > gb::largest_pendular_volume;
+    if (told || bridge.relativeVolume <= gb::largest_pendular_volume || warned_.exchange(true))
         return;
     LOG_WARN("liquid bridge of relative volume "
              << bridge.relativeVolume << ": above " << gl::bridge::largest_pendular_volume
@@ -115,10 +124,47 @@ void Ip2_GrainMat_GrainMat_GrainPhys::warn_beyond_pendular(const LiquidBridge& b
              << " ends the range of the force; law.water() tells the share.");
 }
 
+void Ip2_GrainMat_GrainMat_GrainPhys::check_scene() {
+    const auto* law = Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(*scene);
+    for (const std::string& sentence : yade::idle_effects(*scene, *this, law))
+        LOG_WARN(sentence);
+}
+
+boost::python::list Ip2_GrainMat_GrainMat_GrainPhys::idle_effects(const boost::python::object& law) {
+    scene_checked_ = true;
+    const auto serving =
+        law.is_none() ? shared_ptr<Law2_ScGeom_GrainPhys_HertzMindlin>()
+                      : shared_ptr<Law2_ScGeom_GrainPhys_HertzMindlin>(
+                            boost::python::extract<shared_ptr<Law2_ScGeom_GrainPhys_HertzMindlin>>(law));
+    boost::python::list sentences;
+    for (const std::string& sentence :
+         yade::idle_effects(*Omega::instance().getScene(), *this, serving.get()))
+        sentences.append(sentence);
+    return sentences;
+}
+
+int Ip2_GrainMat_GrainMat_GrainPhys::renew_contacts() {
+    scene = Omega::instance().getScene().get();
+    int renewed = 0;
+    for (const auto& interaction : *scene->interactions) {
+        if (!interaction->isReal() || !dynamic_cast<GrainPhys*>(interaction->phys.get()))
+            continue;
+        const auto before = boost::static_pointer_cast<GrainPhys>(interaction->phys);
+        interaction->phys.reset();
+        go(Body::byId(interaction->getId1(), scene)->material,
+           Body::byId(interaction->getId2(), scene)->material, interaction);
+        static_cast<GrainPhys&>(*interaction->phys).go_on_from(*before);
+        ++renewed;
+    }
+    return renewed;
+}
+
 void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const shared_ptr<Material>& m2,
                                          const shared_ptr<Interaction>& interaction) {
     if (interaction->phys)
         return;
+    if (!scene_checked_.exchange(true))
+        check_scene();
     const auto& mat1 = static_cast<const GrainMat&>(*m1);
     const auto& mat2 = static_cast<const GrainMat&>(*m2);
     const auto& geom = static_cast<const GenericSpheresContact&>(*interaction->geom);
@@ -157,7 +203,7 @@ void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const s
     BridgeKind bridge = BridgeKind::none;
     if (phys->bridge) {
         bridge = phys->bridge->kind();
-        warn_beyond_pendular(*phys->bridge);
+        warn_beyond_pendular(*phys->bridge, mat1, mat2);
     }
     phys->contactClass = ContactClass(form, dashpot, bridge).index;
     interaction->phys = phys;

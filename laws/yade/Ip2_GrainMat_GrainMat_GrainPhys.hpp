@@ -49,6 +49,12 @@ public:
     void validate() const;
     void postLoad(Ip2_GrainMat_GrainMat_GrainPhys&) { validate(); }
 
+    /// Sentences on what was asked for but cannot act. Whoever asks is told, so that no log warns again. The
+    /// law is the one that serves the scene, or None.
+    boost::python::list idle_effects(const boost::python::object& law);
+    /// Gives all contacts of the scene in hand the parameters that their materials have now.
+    int renew_contacts();
+
     FUNCTOR2D(GrainMat, GrainMat);
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ip2_GrainMat_GrainMat_GrainPhys, IPhysFunctor,
@@ -66,6 +72,12 @@ public:
             .add("pairs", &Ip2_GrainMat_GrainMat_GrainPhys::pairs)
             .add("frictionRule", &Ip2_GrainMat_GrainMat_GrainPhys::frictionRule)
             .add("restitutionRule", &Ip2_GrainMat_GrainMat_GrainPhys::restitutionRule))
+        .def("idleEffects", &Ip2_GrainMat_GrainMat_GrainPhys::idle_effects, (boost::python::arg("law") = boost::python::object()),
+            "Effects that the scene asks for but that cannot act, a sentence each; law: the one that serves the contacts. Logged once, with "
+            "the first contact, unless this was called before.")
+        .def("renewContacts", &Ip2_GrainMat_GrainMat_GrainPhys::renew_contacts,
+            "Give all contacts the parameters that their materials have now (a contact keeps those it was made with); forces, slip and "
+            "bridges stay. Returns their number.")
     );
     // clang-format on
 
@@ -73,9 +85,13 @@ public:
 
 private:
     std::atomic<bool> warned_{false};
+    std::atomic<bool> scene_checked_{false};
+
+    /// Logs once what cannot act in this scene.
+    void check_scene();
 
     /// Says once that the scene is too wet for bridges of their own.
-    void warn_beyond_pendular(const LiquidBridge& bridge);
+    void warn_beyond_pendular(const LiquidBridge& bridge, const GrainMat& mat1, const GrainMat& mat2);
     const GrainPair* explicit_pair(const GrainMat& m1, const GrainMat& m2) const;
     shared_ptr<FrictionCurve> pair_friction(const GrainMat& m1, const GrainMat& m2,
                                             const GrainPair* pair) const;

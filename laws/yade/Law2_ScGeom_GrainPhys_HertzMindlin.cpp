@@ -9,13 +9,33 @@
 #include <core/EnergyTracker.hpp>
 #include <core/Omega.hpp>
 
+#include <algorithm>
+#include <vector>
+
 namespace yade {
 
 YADE_PLUGIN((Law2_ScGeom_GrainPhys_HertzMindlin));
 CREATE_LOGGER(Law2_ScGeom_GrainPhys_HertzMindlin);
 
-// Defined here so that virtual tables and Python registration are compiled once.
-Law2_ScGeom_GrainPhys_HertzMindlin::~Law2_ScGeom_GrainPhys_HertzMindlin() = default;
+namespace {
+// All laws alive in the order in which they were made, so that whoever makes contacts finds the one that will
+// serve them.
+std::mutex laws_mutex;
+std::vector<const Law2_ScGeom_GrainPhys_HertzMindlin*> laws;
+} // namespace
+
+Law2_ScGeom_GrainPhys_HertzMindlin::~Law2_ScGeom_GrainPhys_HertzMindlin() {
+    const std::lock_guard<std::mutex> lock(laws_mutex);
+    laws.erase(std::remove(laws.begin(), laws.end(), this), laws.end());
+}
+
+const Law2_ScGeom_GrainPhys_HertzMindlin* Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(const Scene& where) {
+    const std::lock_guard<std::mutex> lock(laws_mutex);
+    // The youngest: a law left over from an earlier scene may point to where this one stands now.
+    const auto found =
+        std::find_if(laws.rbegin(), laws.rend(), [&where](const auto* law) { return law->scene == &where; });
+    return found == laws.rend() ? nullptr : *found;
+}
 
 bool Law2_ScGeom_GrainPhys_HertzMindlin::go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
                                             Interaction* interaction) {
@@ -47,6 +67,9 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
                                                                         : incremental_kernels();
     const KernelTables::Pair& pair = normalLaw == "report" ? tables.report : tables.hertz;
     kernels_ = {&pair.plain, &pair.booking};
+    const std::lock_guard<std::mutex> lock(laws_mutex);
+    if (std::find(laws.begin(), laws.end(), this) == laws.end())
+        laws.push_back(this);
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::name_energies() {
@@ -97,6 +120,10 @@ boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::water() const {
 
 boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::effects() const {
     return describe_effects(*this, *Omega::instance().getScene());
+}
+
+boost::python::dict Law2_ScGeom_GrainPhys_HertzMindlin::kernels_in_use() const {
+    return describe_kernels(*this, *Omega::instance().getScene());
 }
 
 } // namespace yade

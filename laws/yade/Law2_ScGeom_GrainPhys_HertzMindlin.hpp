@@ -40,8 +40,13 @@ public:
     /// Work that went into a bridge which has ruptured.
     void book_bridge(Real work);
 
+    /// The law that serves this scene's contacts; null before its first step and where there is none.
+    static const Law2_ScGeom_GrainPhys_HertzMindlin* acting_in(const Scene& scene);
+
     /// What the law computes in the present scene, each with the reason: {effect: reason}.
     boost::python::dict effects() const;
+    /// {kernel in words: contacts that it serves now}.
+    boost::python::dict kernels_in_use() const;
     /// Where the water of the scene is; see water_budget.hpp.
     boost::python::dict water() const;
     /// {'normal': J, 'shear': J, 'bridge': J} stored in the contacts at this moment.
@@ -63,6 +68,7 @@ public:
         ((int, bridgeIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ((int, kinematicsIx, -1, (Attr::hidden | Attr::noSave), "place in O.energy."))
         ,
+        scene = nullptr;
         choose_kernels();
         ,
         .def(CheckedAttributes<Law2_ScGeom_GrainPhys_HertzMindlin>()
@@ -71,6 +77,9 @@ public:
             .add("tangentialLaw", &Law2_ScGeom_GrainPhys_HertzMindlin::tangentialLaw))
         .add_property("effects", &Law2_ScGeom_GrainPhys_HertzMindlin::effects,
             "What the law computes in the present scene, each with the reason: {effect: reason}.")
+        .add_property("kernels", &Law2_ScGeom_GrainPhys_HertzMindlin::kernels_in_use,
+            "Which kernel serves how many contacts now, touching or held by a bridge: {kernel: contacts}. A contact runs what its own bodies "
+            "ask for: in a bed with one moist layer the dry contacts have a kernel without bridges.")
         .def("elasticEnergy", &Law2_ScGeom_GrainPhys_HertzMindlin::elastic_energy,
             "Energy stored in the contacts now: {'normal': J, 'shear': J, 'bridge': J}.")
         .def("water", &Law2_ScGeom_GrainPhys_HertzMindlin::water,

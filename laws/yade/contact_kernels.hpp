@@ -70,8 +70,9 @@ inline void keep(GrainPhys& phys, const gl::PartialSlipMemory& memory) {
     phys.partialSlip->keep(memory.history);
 }
 
-inline void apply_force(Law& law, const Vector3r& force_on_2, const ScGeom& geom, const Interaction& contact,
-                        const State& state1, const State& state2, const Vector3r& shift2) {
+[[gnu::always_inline]] inline void apply_force(Law& law, const Vector3r& force_on_2, const ScGeom& geom,
+                                               const Interaction& contact, const State& state1,
+                                               const State& state2, const Vector3r& shift2) {
     ForceContainer& forces = law.scene->forces;
     const Body::id_t id1 = contact.getId1();
     const Body::id_t id2 = contact.getId2();

@@ -47,6 +47,10 @@ const char* name_of(BridgeKind kind) {
     return closed ? "liquid bridges: willett-closed" : "liquid bridges: willett";
 }
 
+bool has_film(BridgeKind kind) {
+    return kind == BridgeKind::willett_viscous || kind == BridgeKind::willett_closed_viscous;
+}
+
 /// Collects effects; several materials that ask for one effect share its line.
 class EffectList {
 public:
@@ -88,28 +92,65 @@ void add_material(EffectList& list, const GrainMat& material, const std::string&
         list.add("load scaling", name + ": referenceRadius " + number(material.referenceRadius) + " m");
 }
 
-/// What the contacts of this moment run, which includes curves of explicit pairs and combinations.
-void add_contacts(EffectList& list, const Scene& scene, bool frictional) {
-    std::array<int, ContactClass::count> counts{};
+using Counts = std::array<int, ContactClass::count>;
+
+/// Contacts of this moment by class; `visit` sees each of them.
+template <class Visit>
+Counts count_contacts(const Scene& scene, const Visit& visit) {
+    Counts counts{};
     for (const auto& interaction : *scene.interactions) {
         if (!interaction->isReal())
             continue;
-        if (const auto* phys = dynamic_cast<const GrainPhys*>(interaction->phys.get()))
+        if (const auto* phys = dynamic_cast<const GrainPhys*>(interaction->phys.get())) {
             ++counts[static_cast<std::size_t>(phys->contactClass)];
+            visit(*phys);
+        }
     }
+    return counts;
+}
+
+std::string contacts_now(int contacts) {
+    return std::to_string(contacts) + " contacts now";
+}
+
+/// What the contacts of this moment run, which includes curves of explicit pairs and combinations.
+void add_contacts(EffectList& list, const Scene& scene, bool frictional) {
+    int moist = 0, scaled = 0;
+    const Counts counts = count_contacts(scene, [&](const GrainPhys& phys) {
+        moist += phys.friction && phys.moisture > 0 && phys.friction->depends_on_moisture();
+        scaled += phys.loadScale != 1 && ((frictional && phys.friction) || phys.bridge);
+    });
     for (int index = 0; index < ContactClass::count; ++index) {
         const int contacts = counts[static_cast<std::size_t>(index)];
         if (contacts == 0)
             continue;
-        const std::string reason = std::to_string(contacts) + " contacts now";
         const ContactClass kind(index);
         if (frictional)
-            list.add(name_of(kind.friction()), reason);
+            list.add(name_of(kind.friction()), contacts_now(contacts));
         if (kind.dashpot() != DashpotForm::none)
-            list.add("viscous damping", reason);
+            list.add("viscous damping", contacts_now(contacts));
         if (kind.bridge() != BridgeKind::none)
-            list.add(name_of(kind.bridge()), reason);
+            list.add(name_of(kind.bridge()), contacts_now(contacts));
+        if (has_film(kind.bridge()))
+            list.add("viscous film in bridges", contacts_now(contacts));
     }
+    if (frictional && moist > 0)
+        list.add("moisture in friction", contacts_now(moist));
+    if (scaled > 0)
+        list.add("load scaling", contacts_now(scaled));
+}
+
+std::string kernel_name(const Law2_ScGeom_GrainPhys_HertzMindlin& law, ContactClass kind, bool booking) {
+    std::string name = "normal " + law.normalLaw;
+    if (law.tangentialLaw != "none")
+        name += "; tangential " + law.tangentialLaw + "; " + name_of(kind.friction());
+    if (kind.dashpot() != DashpotForm::none)
+        name += kind.dashpot() == DashpotForm::attractive ? "; attractive dashpot" : "; dashpot";
+    if (kind.bridge() != BridgeKind::none)
+        name += std::string("; ") + name_of(kind.bridge());
+    if (has_film(kind.bridge()))
+        name += " with viscous film";
+    return booking ? name + "; energy booking" : name;
 }
 
 } // namespace
@@ -132,6 +173,20 @@ boost::python::dict describe_effects(const Law2_ScGeom_GrainPhys_HertzMindlin& l
     if (scene.trackEnergy)
         list.add("energy booking", "O.trackEnergy");
     return list.result();
+}
+
+boost::python::dict describe_kernels(const Law2_ScGeom_GrainPhys_HertzMindlin& law, const Scene& scene) {
+    const Counts counts = count_contacts(scene, [](const GrainPhys&) {});
+    boost::python::dict kernels;
+    for (int index = 0; index < ContactClass::count; ++index) {
+        const int contacts = counts[static_cast<std::size_t>(index)];
+        if (contacts == 0)
+            continue;
+        // Without a tangential force one kernel serves all curves.
+        const std::string name = kernel_name(law, ContactClass(index), scene.trackEnergy);
+        kernels[name] = contacts + boost::python::extract<int>(kernels.get(name, 0))();
+    }
+    return kernels;
 }
 
 } // namespace yade

@@ -17,3 +17,6 @@ from grainfall import _build_info, _registration  # noqa: E402  the guard comes 
 
 __version__: str = _build_info.PACKAGE_VERSION
 CLASS_NAMES: tuple[str, ...] = _registration.register()
+
+from grainfall.materials import check_scene, quartz_sand  # noqa: E402, F401
+from grainfall.pricing import price  # noqa: E402, F401

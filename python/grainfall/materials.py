@@ -10,6 +10,7 @@ script may change any of them before it makes the material::
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 #: Volume of a bridge over the cube of the grain's radius above which bridges of three touching grains meet:
@@ -99,7 +100,8 @@ def check_scene() -> list[str]:
     -------
     list of str
         Warnings, one sentence each: effects that were asked for but cannot act, such as a friction
-        curve that depends on moisture in a scene without water.
+        curve that depends on moisture in a scene without water. Without this call they are logged when the first
+        contact is made.
 
     Raises
     ------
@@ -108,31 +110,26 @@ def check_scene() -> list[str]:
     """
     from yade import O, wrapper
 
-    materials = [m for m in O.materials if isinstance(m, wrapper.GrainMat)]
-    labels = {m.label for m in materials}
-    for engine in O.engines:
-        if not isinstance(engine, wrapper.InteractionLoop):
-            continue
-        for functor in engine.physDispatcher.functors:
-            if isinstance(functor, wrapper.Ip2_GrainMat_GrainMat_GrainPhys):
-                _check_pairs(functor, labels)
+    labels = {m.label for m in O.materials if isinstance(m, wrapper.GrainMat)}
+    warnings: dict[str, None] = {}
+    for makers, laws in contact_functors():
+        law = next(
+            (f for f in laws if isinstance(f, wrapper.Law2_ScGeom_GrainPhys_HertzMindlin)), None
+        )
+        for maker in makers:
+            if isinstance(maker, wrapper.Ip2_GrainMat_GrainMat_GrainPhys):
+                _check_pairs(maker, labels)
+                warnings.update(dict.fromkeys(maker.idleEffects(law)))
+    return list(warnings)
 
-    warnings = []
-    wet = any(m.gravimetricMoisture > 0 for m in materials)
-    for m in materials:
-        name = m.label or f"material {m.id}"
-        curve = m.friction
-        if curve is not None and curve.dependsOnMoisture and not wet:
-            warnings.append(f"{name}: its friction depends on moisture, but the scene has no water")
-        load_dependent = curve is not None and curve.dependsOnLoad
-        if m.referenceRadius > 0 and not load_dependent and not m.hasBridges:
-            warnings.append(f"{name}: referenceRadius has no effect on constant friction")
-        if m.relativeBridgeVolume > PENDULAR_LIMIT:
-            warnings.append(
-                f"{name}: bridges hold {m.relativeBridgeVolume:.3g} R^3; above {PENDULAR_LIMIT} R^3 those of "
-                "neighbouring contacts merge, so that separate (pendular) bridges are an approximation"
-            )
-    return warnings
+
+def contact_functors() -> Iterator[tuple[list[Any], list[Any]]]:
+    """The functors that make contacts, and those that act in them, of each interaction loop of the scene."""
+    from yade import O
+
+    for engine in O.engines:
+        if hasattr(engine, "physDispatcher") and hasattr(engine, "lawDispatcher"):
+            yield engine.physDispatcher.functors, engine.lawDispatcher.functors
 
 
 def _check_pairs(functor: Any, labels: set[str]) -> None:

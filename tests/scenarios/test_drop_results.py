@@ -147,6 +147,7 @@ def test_constant_friction_is_one_word_away(small_drop):
     constant, _ = small_drop("constant", friction="0.5")
     assert any("power law" in effect for effect in with_load["effects"])
     assert not any("power law" in effect for effect in constant["effects"])
+    assert {"projectile", "energy ledger"} <= set(constant["effects"])
 
 
 def test_pictures_page_and_paraview_files_are_written_and_the_page_needs_no_other_file(small_drop):

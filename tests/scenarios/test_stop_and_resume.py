@@ -62,6 +62,7 @@ def test_ctrl_c_leaves_a_summary_and_a_state_to_resume_from(bed_cache, tmp_path)
     process.send_signal(signal.SIGINT)
     text, _ = process.communicate(timeout=60)
     assert "Traceback" not in text
+    assert text.count("effects:\n") == 1  # what runs is said once, at the start
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["interrupted"]
     before = (folder / "trace.csv").read_text()

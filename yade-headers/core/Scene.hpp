@@ -58,3 +58,5 @@ public:
 };
 
 } // namespace yade
+
+YADE_ABI_STOCK_SERIALIZERS(Scene)

@@ -22,12 +22,13 @@ from grainfall.drop.results import touch_time
 from grainfall.drop.scene import bed_spec, build_scene, projectile_id
 from grainfall.drop.snapshots import Snapshots
 from grainfall.drop.summary import make_summary, print_summary
+from grainfall.effects import print_effects
 from grainfall.materials import check_scene
 from grainfall.options import OptionError, resumed
-from grainfall.price import Clock
 from grainfall.progress import Progress
 from grainfall.projectile_mesh import outline
 from grainfall.running import advance
+from grainfall.wall_clock import Clock
 
 STATE, PARAMETERS, BED, EARLIER = "state.yade.gz", "parameters.json", "bed.h5", "earlier_parts.json"
 #: The nose has come to rest when it sinks slower than the rest speed over this time [s].
@@ -92,6 +93,8 @@ class DropRun:
         self.snapshots = self._snapshots(bed)
         self.snapshots.largest_relative_overlap = self.earlier["largest_overlap"]
         traces.set_current(self.trace)
+        if not self.parameters["quiet"]:
+            print_effects()
         O.timingEnabled = True
         yade.timing.reset()
         try:

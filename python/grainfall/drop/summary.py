@@ -14,8 +14,9 @@ from yade import O
 from grainfall import run_notes
 from grainfall.beds import Bed
 from grainfall.drop.results import drop_results, energy_results
-from grainfall.price import engine_seconds
+from grainfall.effects import running_effects
 from grainfall.report.html_page import number, split_unit
+from grainfall.wall_clock import engine_seconds
 from grainfall.water import water_budget
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
         summary.update(energy_results(ledger, run.trace.energy_arrays()))
     summary.update(coarsening(p, bed))
     summary["largest_overlap_over_radius"] = run.snapshots.largest_relative_overlap
-    summary["effects"] = dict(builtins.contact_law.effects)
+    summary["effects"] = running_effects()
     summary["path"] = getattr(builtins.contacts, "path", "general")
     if p["moisture"] > 0 and p["bridges"] != "none":
         summary["water"] = water_budget()

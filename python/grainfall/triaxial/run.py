@@ -17,9 +17,9 @@ import yade.timing
 from yade import O
 
 from grainfall.contacts import Sand
+from grainfall.effects import print_effects
 from grainfall.materials import check_scene
 from grainfall.options import resumed
-from grainfall.price import Clock
 from grainfall.progress import Progress
 from grainfall.running import advance, undisturbed
 from grainfall.triaxial import cyclic, scene
@@ -29,6 +29,7 @@ from grainfall.triaxial.preloading import preload
 from grainfall.triaxial.preparation import RESTITUTION, read_state
 from grainfall.triaxial.samples import SampleSpec, load_sample, obtain_sample, save_sample
 from grainfall.triaxial.summary import make_summary, print_summary, test_results
+from grainfall.wall_clock import Clock
 
 STATE, PARAMETERS, SAMPLE = "state.yade.gz", "parameters.json", "sample.h5"
 #: What belongs to the state but is not saved with a scene: membrane forces, and what is finished so far.
@@ -120,6 +121,8 @@ class TriaxialRun:
             self._load()
         else:
             self._prepare()
+        if not self.parameters["quiet"]:
+            print_effects()
         O.timingEnabled = True
         yade.timing.reset()
         try:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import builtins
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,7 +12,7 @@ import numpy as np
 from yade import O
 
 from grainfall import run_notes
-from grainfall.price import engine_seconds
+from grainfall.effects import running_effects
 from grainfall.report.html_page import number
 from grainfall.triaxial.cyclic import CyclicTest, inertia_free
 from grainfall.triaxial.parameters import (
@@ -24,6 +23,7 @@ from grainfall.triaxial.parameters import (
     real_peak_to_peak,
     softness,
 )
+from grainfall.wall_clock import engine_seconds
 from grainfall.water import water_budget
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ def make_summary(run: TriaxialRun) -> dict[str, Any]:
         summary.update(_equivalent(summary, run))
     summary["displacement_peak_to_peak_m"] = peak_to_peak(p)
     summary.update(_scaling(run))
-    summary["effects"] = dict(builtins.contact_law.effects)
+    summary["effects"] = running_effects()
     summary["path"] = getattr(builtins.contacts, "path", "general")
     if p["moisture"] > 0 and p["bridges"] != "none":
         summary["water"] = water_budget()
