@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 RADIUS, MASS = 2.5e-3, 1.0e-3  # m, kg: Table 1 of MR-2629
 YOUNG, POISSON, FRICTION, RESTITUTION = 2.8e9, 0.4, 0.5, 0.5  # G = 1e9 Pa
@@ -106,6 +107,13 @@ def struck_bed(grains: int, cache: Path, bare_loop: Path) -> Bed:
     run_bare_loop(bare_loop, work, work, bed.side, PENETRATION_STEPS)
     work.rename(bed.path)
     return bed
+
+
+def mean_overlap(grains: np.ndarray) -> float:
+    """Mean overlap of the grains that touch, rows of shape (n, 11) [m]."""
+    pairs = cKDTree(grains[:, :3]).query_pairs(2 * RADIUS, output_type="ndarray")
+    apart = np.linalg.norm(grains[pairs[:, 0], :3] - grains[pairs[:, 1], :3], axis=1)
+    return float(np.mean(2 * RADIUS - apart))
 
 
 def run_bare_loop(

@@ -25,8 +25,6 @@ from scipy.optimize import brentq
 
 from speed import bed as beds
 
-#: Overlap at which gran/hertz/history's dashpots are ours [m]: mean of the settled beds.
-MEAN_OVERLAP = 1.2e-6
 # Memory of the first rank, whose process number the shell that starts the program put into `pid`.
 _MEMORY = "shell grep VmRSS /proc/${pid}/status >> memory"
 # LIGGGHTS wants one format for the whole line.
@@ -78,14 +76,14 @@ def granular_law() -> str:
     )
 
 
-def hertz_history_law() -> str:
+def hertz_history_law(overlap: float) -> str:
     """Coefficients of `gran/hertz/history`: K_n, K_t, gamma_n, gamma_t, mu, tangential damping on.
 
-    F = sqrt(overlap R*) (K overlap - m* gamma v), so gamma is our c/(m* sqrt(overlap R*)).
+    F = sqrt(overlap R*) (K overlap - m* gamma v), so gamma is our c/(m* sqrt(overlap R*)) at `overlap` [m].
     """
     normal, shear = stiffness_coefficients()
     radius, mass = beds.RADIUS / 2, beds.MASS / 2
-    root = math.sqrt(radius * MEAN_OVERLAP)
+    root = math.sqrt(radius * overlap)
     critical = 2 * damping_ratio() / math.sqrt(mass * root)
     gamma_n = critical * math.sqrt(1.5 * normal)
     gamma_t = critical * math.sqrt(shear)
@@ -117,9 +115,10 @@ def lammps_input(bed: beds.Bed, law: str, warm_up: int, steps: int, skin: float)
     """Input for LAMMPS; `law` is 'granular' or 'hertz/history'."""
     half = bed.side / 2
     granular = law == "granular"
-    style = "granular" if granular else f"gran/hertz/history {hertz_history_law()}"
+    simple = hertz_history_law(beds.mean_overlap(bed.bodies()[: bed.grains]))
+    style = "granular" if granular else f"gran/hertz/history {simple}"
     coefficients = granular_law() if granular else ""
-    wall = f"granular {granular_law()}" if granular else f"hertz/history {hertz_history_law()}"
+    wall = f"granular {granular_law()}" if granular else f"hertz/history {simple}"
     struck = len(bed.bodies()) > bed.grains
     return f"""\
 atom_style sphere

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Times a step of everybody on the same beds and writes benchmarks/results/speed.json and docs/performance.md.
 
-usage: PYTHONPATH=benchmarks /usr/bin/python3 -m speed.run [build] [--quick] [--parts settled,moving,growth]
+usage: PYTHONPATH=benchmarks /usr/bin/python3 -m speed.run [build] [--quick] [--output FOLDER]
+                                                         [--parts settled,moving,growth]
 
 Needs an idle machine: how busy others kept it is recorded. Beds are kept in ~/.cache/grainfall/speed
 (or --cache).
@@ -9,7 +10,6 @@ Needs an idle machine: how busy others kept it is recorded. Beds are kept in ~/.
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import time
 from pathlib import Path
@@ -73,28 +73,37 @@ def main() -> None:
     if "growth" in options.parts:
         results["growth"] = _growth(cache, build, options, field)
     results["seconds"] = round(time.time() - started)
-    report.write(results, options.output, options.page)
-    print(report.text(results))
+    report.write(results, options.folder, options.page)
+    print(report.tables(results))
 
 
 def _options() -> argparse.Namespace:
     root = Path(__file__).resolve().parents[2]
     parser = argparse.ArgumentParser(prog="speed.run", description=__doc__.splitlines()[0])
     parser.add_argument("build", nargs="?", default=root / "build", type=Path)
-    parser.add_argument("--quick", action="store_true", help="10 000 grains, few rounds: a minute or two")
+    parser.add_argument(
+        "--quick", action="store_true", help="10 000 grains, few rounds: a minute or two"
+    )
     parser.add_argument("--parts", default="", help=f"some of {','.join(PARTS)}")
     parser.add_argument("--rounds", type=int, default=0, help="samples of each contender")
     cache = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "grainfall" / "speed"
     parser.add_argument("--cache", type=Path, default=cache, help="folder of the beds")
-    results = root / "benchmarks/results/speed.json"
-    parser.add_argument("--output", type=Path, default=results, help="file for the numbers")
-    parser.add_argument("--page", type=Path, default=root / "docs/performance.md")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        help="folder for speed.json and speed.png; no page is written (default with --quick: results/speed)",
+    )
     options = parser.parse_args()
     usual = ("settled",) if options.quick else PARTS
     options.parts = tuple(options.parts.split(",")) if options.parts else usual
     unknown = set(options.parts) - set(PARTS)
     if unknown:
         parser.error(f"--parts: {', '.join(sorted(unknown))} is none of {', '.join(PARTS)}")
+    if options.quick and not options.output:
+        options.output = root / "results/speed"
+    # Without a folder of its own a run is the one that the documentation shows.
+    options.page = None if options.output else root / "docs/performance.md"
+    options.folder = options.output or root / "benchmarks/results"
     return options
 
 
@@ -123,7 +132,9 @@ def _growth(
     cache: Path, build: Path, options: argparse.Namespace, field: list[Contender]
 ) -> dict[str, Any]:
     """From 1000 to 500 000 grains on one thread."""
-    sizes = (1000, 3000, 10_000) if options.quick else (1000, 5000, 20_000, 100_000, 500_000)
+    sizes = (
+        (1000, 3000, 10_000) if options.quick else (1000, 5000, 10_000, 50_000, 200_000, 500_000)
+    )
     growing = [c for c in field if c.name in GROWING]
     cases = []
     for grains in sizes:
@@ -137,4 +148,5 @@ def _growth(
     return study.growth(cases)
 
 
-main()
+if __name__ == "__main__":
+    main()
