@@ -38,13 +38,17 @@ def write(results: dict[str, Any], folder: Path, page: Path | None) -> None:
         draw(results, folder / "speed.png")
         return
     draw(results, page.parent / "images" / "speed.png")
-    begin, end = "<!-- speed tables -->", "<!-- end speed tables -->"
+    fill(page, "speed tables", tables(results))
+
+
+def fill(page: Path, name: str, content: str) -> None:
+    """Replace what stands between the marks `name` of a page."""
+    begin, end = f"<!-- {name} -->", f"<!-- end {name} -->"
     text = page.read_text(encoding="utf-8")
-    if begin not in text or end not in text:
-        raise ValueError(f"{page}: no place for the tables ({begin} ... {end})")
-    block = f"{begin}\n{tables(results)}\n{end}"
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
-    page.write_text(pattern.sub(lambda _: block, text), encoding="utf-8")
+    if not pattern.search(text):
+        raise ValueError(f"{page}: no place for {name} ({begin} ... {end})")
+    page.write_text(pattern.sub(lambda _: f"{begin}\n{content}\n{end}", text), encoding="utf-8")
 
 
 def tables(results: dict[str, Any]) -> str:
@@ -115,6 +119,26 @@ def _ratios(results: dict[str, Any]) -> str:
         low, high = results["ratio_quartiles"][name]
         rows.append([f"`{name}`", f"{value:.2f}", f"{low:.2f} to {high:.2f}"])
     return _markdown(rows)
+
+
+def whole_run(report: dict[str, Any]) -> str:
+    """Table of the runs of `speed.table1`."""
+    rows = [["path", "threads", "wall [s]", "processor [s]", "others busy", "depth [mm]"]]
+    rows.append(["---"] * 6)
+    for path, run in report["runs"].items():
+        numbers = [f"{run[key]:.0f}" for key in ("wall_seconds", "processor_seconds")]
+        rows.append(
+            [
+                path,
+                str(run["threads"]),
+                *numbers,
+                f"{run['others_busy_processors']:g}",
+                f"{1e3 * run['depth_m']:.1f}",
+            ]
+        )
+    ratio = report.get("stock_over_flat")
+    last = f"\n\nStock over flat: {ratio:.2f}." if ratio else ""
+    return _markdown(rows) + last
 
 
 def _growth(growth: dict[str, Any]) -> str:

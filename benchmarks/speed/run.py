@@ -48,7 +48,7 @@ def main() -> None:
         if contender.absent:
             print(f"skipped: {contender.label}: {contender.absent}")
     started = time.time()
-    sizes = (10_000,) if options.quick else (10_000, 50_000)
+    sizes = options.grains
     cases: dict[str, list[dict[str, Any]]] = {"settled": [], "moving": []}
     for kind in ("settled", "moving"):
         for grains in sizes if kind in options.parts else ():
@@ -85,6 +85,9 @@ def _options() -> argparse.Namespace:
         "--quick", action="store_true", help="10 000 grains, few rounds: a minute or two"
     )
     parser.add_argument("--parts", default="", help=f"some of {','.join(PARTS)}")
+    parser.add_argument(
+        "--grains", type=int, nargs="+", help="sizes of the beds (default: 10000 50000)"
+    )
     parser.add_argument("--rounds", type=int, default=0, help="samples of each contender")
     cache = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "grainfall" / "speed"
     parser.add_argument("--cache", type=Path, default=cache, help="folder of the beds")
@@ -99,6 +102,7 @@ def _options() -> argparse.Namespace:
     unknown = set(options.parts) - set(PARTS)
     if unknown:
         parser.error(f"--parts: {', '.join(sorted(unknown))} is none of {', '.join(PARTS)}")
+    options.grains = options.grains or ([10_000] if options.quick else [10_000, 50_000])
     if options.quick and not options.output:
         options.output = root / "results/speed"
     # Without a folder of its own a run is the one that the documentation shows.

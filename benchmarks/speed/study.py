@@ -20,9 +20,9 @@ from speed.contenders import Contender, Run, Sample, take
 from speed.machine import OthersWatch
 
 #: Largest difference from the reference, root mean square, relative to the reference's displacement.
-#: Within Grainfall the formulas are the same; the others start half a step apart (1 % after 100
-#: steps) and damp and rescale shear a little differently.
-TOLERANCE = {"flat": 1e-6, "kernel": 1e-3}
+#: Within Grainfall the formulas are the same but for lever arms at walls, which differ by the overlap (1e-4
+#: after 100 steps); the others start half a step apart (1 %) and damp and rescale shear a little differently.
+TOLERANCE = {"flat": 1e-3, "kernel": 1e-3}
 TOLERANCE_OF_OTHERS = 0.1
 
 
@@ -74,6 +74,7 @@ def measure(case: Case, field: Sequence[Contender]) -> dict[str, Any]:
     result: dict[str, Any] = {
         "grains": case.bed.grains,
         "threads": case.threads,
+        "clock": "processor" if case.threads == 1 else "wall",
         "steps": case.steps,
         "rounds": case.rounds,
         "contacts": contacts,
@@ -148,7 +149,6 @@ def memory(case: dict[str, Any]) -> dict[str, Any]:
             result[name] = {
                 "bytes_per_grain": round(entry["bytes_bodies"] / case["grains"]),
                 "bytes_per_contact": round(entry["bytes_contacts"] / case["contacts"]),
-                "bytes_per_pair": round(entry["bytes_contacts"] / entry["pairs"]),
             }
         elif "bytes_all" in entry:
             result[name] = {

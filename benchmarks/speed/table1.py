@@ -4,8 +4,8 @@
 usage: PYTHONPATH=benchmarks /usr/bin/python3 -m speed.table1 [build] [--paths flat,stock] [--threads 2] [--seconds 0.1]
 
 50 000 grains, the M70 outline of 57 mm and 10 kg at 2 m/s, 10 000 steps of 1e-5 s, no recorders. The outline is
-Grainfall's in all paths, since YADE has none. Writes benchmarks/results/speed_table1.json, for each path
-that was run; the others keep what they had.
+Grainfall's in all paths, since YADE has none. Writes benchmarks/results/speed_table1.json and the table in
+docs/performance.md for each path that was run; the others keep what they had.
 """
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from typing import Any
 from speed import machine
 from speed.bed import Bed, settled_bed
 from speed.contenders import ROOT, bare_loop, yade_environment
+from speed.report import fill, whole_run
 
 
 def main() -> None:
@@ -32,14 +33,16 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=0.1, help="simulated time")
     cache = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "grainfall" / "speed"
     parser.add_argument("--cache", type=Path, default=cache, help="folder of the beds")
-    output = ROOT / "benchmarks/results/speed_table1.json"
-    parser.add_argument("--output", type=Path, default=output)
+    parser.add_argument(
+        "--output", type=Path, help="file for the numbers, instead of the documentation's"
+    )
     options = parser.parse_args()
     build = options.build.resolve()
     bed = settled_bed(options.grains, options.cache.resolve(), bare_loop(build))
+    output = options.output or ROOT / "benchmarks/results/speed_table1.json"
     runs: dict[str, Any] = {}
-    if options.output.exists():
-        runs = json.loads(options.output.read_text(encoding="utf-8"))["runs"]
+    if output.exists():
+        runs = json.loads(output.read_text(encoding="utf-8"))["runs"]
     for path in options.paths.split(","):
         runs[path] = timed(path, bed, build, options.threads, options.seconds)
     report = {"machine": machine.description(), "grains": bed.grains, "runs": runs}
@@ -47,8 +50,10 @@ def main() -> None:
         report["stock_over_flat"] = round(
             runs["stock"]["wall_seconds"] / runs["flat"]["wall_seconds"], 3
         )
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    options.output.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+    if not options.output:
+        fill(ROOT / "docs/performance.md", "table1", whole_run(report))
     print(json.dumps(report, indent=1))
 
 
