@@ -91,22 +91,23 @@ def struck_bed(grains: int, cache: Path, bare_loop: Path) -> Bed:
     bed = Bed(cache / f"struck_{grains}_seed{SEED}.f64", still.side, grains)
     if bed.path.exists():
         return bed
-    rows = still.bodies()
-    near = np.hypot(rows[:, 0], rows[:, 1]) < PROJECTILE_RADIUS + RADIUS
-    reach = PROJECTILE_RADIUS + RADIUS
-    height = rows[near, 2] + np.sqrt(reach**2 - rows[near, 0] ** 2 - rows[near, 1] ** 2)
-    sphere = np.zeros((1, 11))
-    sphere[0, [2, 5, 9, 10]] = (
-        float(np.nanmax(height)),
-        -IMPACT_SPEED,
-        PROJECTILE_RADIUS,
-        PROJECTILE_MASS,
-    )
+    rows = with_sphere(still.bodies())
     work = bed.path.with_suffix(".part")
-    np.vstack((rows, sphere)).tofile(work)
+    rows.tofile(work)
     run_bare_loop(bare_loop, work, work, bed.side, PENETRATION_STEPS)
     work.rename(bed.path)
     return bed
+
+
+def with_sphere(grains: np.ndarray) -> np.ndarray:
+    """The grains and a sphere on them that has just touched, moving down, shape (n + 1, 11)."""
+    reach = PROJECTILE_RADIUS + RADIUS
+    near = grains[np.hypot(grains[:, 0], grains[:, 1]) < reach]
+    touching_at = near[:, 2] + np.sqrt(reach**2 - near[:, 0] ** 2 - near[:, 1] ** 2)
+    sphere = np.zeros((1, 11))
+    sphere[0, [2, 5]] = touching_at.max(), -IMPACT_SPEED
+    sphere[0, 9:] = PROJECTILE_RADIUS, PROJECTILE_MASS
+    return np.vstack((grains, sphere))
 
 
 def mean_overlap(grains: np.ndarray) -> float:

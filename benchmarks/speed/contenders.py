@@ -18,7 +18,8 @@ from speed import peers
 from speed.bed import Bed
 
 ROOT = Path(__file__).resolve().parents[2]
-#: Pairs nearer than this belong to the bare kernel's list of contacts [m]: nothing moves so far while timed.
+#: Pairs nearer than this belong to the bare kernel's list of contacts [m]: nothing moves so far in 100 steps, nor
+#: three times as far in 200.
 CONTACT_MARGIN = 1e-5
 
 
@@ -227,7 +228,7 @@ def _kernel_sample(program: Path, run: Run, folder: Path) -> Sample:
         run.bed.side,
         run.steps,
         warm_up=run.warm_up,
-        contacts_only=CONTACT_MARGIN,
+        contacts_only=CONTACT_MARGIN if run.warm_up + run.steps <= 100 else 3 * CONTACT_MARGIN,
     )
     # A rattler may come to touch; more than that would be work left out.
     if numbers["missed"] > 1e-3 * numbers["contacts"]:

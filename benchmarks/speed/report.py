@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -60,7 +61,7 @@ def tables(results: dict[str, Any]) -> str:
     if results["ratios"]:
         parts += ["### Ratios", _ratios(results)]
     if results.get("growth"):
-        parts += ["### Growth", _growth(results["growth"])]
+        parts += ["### Growth", _growth(results["growth"]["lines"])]
     if results.get("memory"):
         parts += ["### Memory", _memory(results["memory"])]
     return "\n\n".join(parts)
@@ -69,11 +70,14 @@ def tables(results: dict[str, Any]) -> str:
 def _conditions(results: dict[str, Any]) -> str:
     machine = results["machine"]
     cases = results["settled"] + results["moving"]
-    busy = max((c["others_busy_processors"]["median"] for c in cases), default=0.0)
+    grown = results.get("growth", {"others_busy_processors": [], "rounds": []})
+    busy = max(
+        [c["others_busy_processors"]["median"] for c in cases] + grown["others_busy_processors"]
+    )
+    rounds = [c["rounds"] for c in cases] + grown["rounds"]
     lines = [
-        f"{machine['date']}, {machine['processor']}, {machine['cores']} cores, median of "
-        f"{' to '.join(sorted({str(c['rounds']) for c in cases}))} rounds, quartiles in brackets. "
-        f"Other programs kept {busy:g} processors busy."
+        f"{machine['date']}, {machine['processor']}, {machine['cores']} cores; medians of {min(rounds)} "
+        f"to {max(rounds)} rounds, quartiles in brackets. Other programs kept {busy:g} processors busy."
     ]
     if busy > 0.1:
         lines.append(
@@ -176,13 +180,21 @@ def draw(results: dict[str, Any], file: Path) -> None:
     panels = len(cases) + bool(growth)
     if not panels:
         return
+    columns = panels if panels <= 3 else math.ceil(panels / 2)
+    lines = math.ceil(panels / columns)
     figure, axes = plt.subplots(
-        1, panels, figsize=(1.2 + 3.1 * panels, 3.6), layout="constrained", squeeze=False
+        lines,
+        columns,
+        figsize=(1.2 + 3.1 * columns, 3.6 * lines),
+        layout="constrained",
+        squeeze=False,
     )
-    for number, (panel, (kind, case)) in enumerate(zip(axes[0], cases)):
-        _bars(panel, kind, case, with_names=number == 0)
+    for number, (kind, case) in enumerate(cases):
+        _bars(axes.flat[number], kind, case, with_names=number % columns == 0)
     if growth:
-        _lines(axes[0][-1], growth)
+        _lines(axes.flat[panels - 1], growth["lines"])
+    for unused in axes.flat[panels:]:
+        unused.set_axis_off()
     figure.savefig(file, dpi=110)
     plt.close(figure)
 

@@ -147,7 +147,7 @@ def _growth(
         rounds = 2 if large or options.quick else 5
         print(f"growth, {grains} grains, {rounds} rounds", flush=True)
         # Small beds are stepped oftener, so that the clock's grain does not show.
-        steps = 20 if large else max(80, 400_000 // grains)
+        steps = 20 if large else max(80, 200_000 // grains)
         cases.append(study.measure(Case(bed, 1, 10, steps, rounds), growing))
     return study.growth(cases)
 

@@ -7,7 +7,7 @@ disturb least; two threads, where waiting counts, by the clock on the wall.
 """
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -126,19 +126,20 @@ def ratio(case: dict[str, Any], over: str, under: str) -> dict[str, Any] | None:
     return {"median": round(middle, 3), "quartiles": [round(low, 3), round(high, 3)]}
 
 
-def growth(cases: Iterable[dict[str, Any]]) -> dict[str, Any]:
+def growth(cases: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Step time against number of grains, and the exponent of the power law that fits it best."""
-    result: dict[str, Any] = {}
+    lines: dict[str, Any] = {}
     for case in cases:
         for name, entry in case["contenders"].items():
-            line = result.setdefault(name, {"grains": [], "step_ms": []})
+            line = lines.setdefault(name, {"grains": [], "step_ms": []})
             line["grains"].append(case["grains"])
             line["step_ms"].append(entry["step_ms"])
-    for line in result.values():
+    for line in lines.values():
         if len(line["grains"]) > 1:
             slope = np.polyfit(np.log(line["grains"]), np.log(line["step_ms"]), 1)[0]
             line["exponent"] = round(float(slope), 3)
-    return result
+    busy = [case["others_busy_processors"]["median"] for case in cases]
+    return {"others_busy_processors": busy, "rounds": [c["rounds"] for c in cases], "lines": lines}
 
 
 def memory(case: dict[str, Any]) -> dict[str, Any]:
