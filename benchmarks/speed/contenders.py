@@ -164,8 +164,11 @@ def yade_environment(build: Path) -> dict[str, str]:
 
 
 def _flat_path_absent(build: Path) -> str:
-    code = "import sys,os,grainfall,speed.yade_scene as s;os._exit(0 if s.has_flat_path() else 3)"
-    script = "import os\n" + code
+    script = """import os
+import grainfall
+from speed.yade_scene import has_flat_path
+os._exit(0 if has_flat_path() else 3)
+"""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "probe.py"
         file.write_text(script, encoding="ascii")
@@ -181,7 +184,9 @@ def _yade_sample(build: Path, path: str, own_verlet: bool, run: Run, folder: Pat
     command += ["--warm-up", run.warm_up, "--steps", run.steps]
     if own_verlet:
         command += ["--verlet", repr(run.skin / 2)]
-    _call([str(word) for word in command], folder, yade_environment(build))
+    log = _call([str(word) for word in command], folder, yade_environment(build))
+    if not report.exists():
+        raise RuntimeError(f"the run of YADE's {path} path gave no report:\n{log[-2000:]}")
     numbers = json.loads(report.read_text(encoding="utf-8"))
     return Sample(
         numbers.pop("wall_seconds"),
@@ -243,4 +248,4 @@ def _call(command: list[str], folder: Path, environment: dict[str, str]) -> str:
     if done.returncode != 0:
         tail = (done.stdout + done.stderr)[-2000:]
         raise RuntimeError(f"{' '.join(command)} failed with {done.returncode}:\n{tail}")
-    return done.stdout
+    return done.stdout + done.stderr

@@ -75,9 +75,9 @@ def _conditions(results: dict[str, Any]) -> str:
         [c["others_busy_processors"]["median"] for c in cases] + grown["others_busy_processors"]
     )
     rounds = [c["rounds"] for c in cases] + grown["rounds"]
+    spoken = " to ".join(map(str, sorted({min(rounds), max(rounds)})))
     lines = [
-        f"{machine['date']}, {machine['processor']}, {machine['cores']} cores; medians of {min(rounds)} "
-        f"to {max(rounds)} rounds, quartiles in brackets. Other programs kept {busy:g} processors busy."
+        f"{machine['date']}, {machine['processor']}, {machine['cores']} cores; medians of {spoken} rounds, quartiles in brackets. Other programs kept {busy:g} processors busy."
     ]
     if busy > 0.1:
         lines.append(

@@ -114,7 +114,7 @@ def _options() -> argparse.Namespace:
 def _measured(
     kind: str, bed: Bed, threads: int, options: argparse.Namespace, field: list[Contender]
 ) -> dict[str, Any]:
-    rounds = options.rounds or (2 if options.quick else 7 if kind == "settled" else 5)
+    rounds = options.rounds or (2 if options.quick else 5 if kind == "settled" else 3)
     moving = kind == "moving"
     case = Case(bed, threads, 20, 200 if moving else 80, rounds, moving)
     print(f"{kind}, {bed.grains} grains, {threads} threads, {rounds} rounds", flush=True)
@@ -144,7 +144,7 @@ def _growth(
     for grains in sizes:
         bed = settled_bed(grains, cache, bare_loop(build))
         large = grains > 50_000
-        rounds = 2 if large or options.quick else 5
+        rounds = 2 if large or options.quick else 3
         print(f"growth, {grains} grains, {rounds} rounds", flush=True)
         # Small beds are stepped oftener, so that the clock's grain does not show.
         steps = 20 if large else max(80, 200_000 // grains)
