@@ -77,7 +77,8 @@ def _conditions(results: dict[str, Any]) -> str:
     rounds = [c["rounds"] for c in cases] + grown["rounds"]
     spoken = " to ".join(map(str, sorted({min(rounds), max(rounds)})))
     lines = [
-        f"{machine['date']}, {machine['processor']}, {machine['cores']} cores; medians of {spoken} rounds, quartiles in brackets. Other programs kept {busy:g} processors busy."
+        f"{machine['date']}, {machine['processor']}, {machine['cores']} cores; medians of {spoken} "
+        f"rounds, quartiles in brackets. Other programs kept {busy:g} processors busy."
     ]
     if busy > 0.1:
         lines.append(
