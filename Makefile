@@ -6,7 +6,7 @@ CMAKE_OPTIONS ?=
 DEMO_OUTPUT ?= results/demo
 DEMO_OPTIONS ?=
 
-.PHONY: all deps configure build package demo test bench accuracy install uninstall format format-check clean
+.PHONY: all deps configure build package demo test bench bench-quick accuracy install uninstall format format-check clean
 
 all: build
 
@@ -36,6 +36,12 @@ bench: build
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/law_cost.py
 	/usr/bin/python3 benchmarks/instruction_count.py $(BUILD)
 	/usr/bin/python3 benchmarks/effect_cost/measure.py $(BUILD)
+	PYTHONPATH=benchmarks /usr/bin/python3 -m speed.run $(BUILD)
+
+# The speed of a step in a minute or two: results/speed/.
+bench-quick: package
+	cmake --build $(BUILD) --target bare_loop
+	PYTHONPATH=benchmarks /usr/bin/python3 -m speed.run $(BUILD) --quick
 
 # Error against time for every knob that buys accuracy: docs/accuracy.md.
 accuracy: package

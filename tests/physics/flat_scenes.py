@@ -69,6 +69,7 @@ def engines(
     more: Sequence[Any] = (),
     law: dict[str, Any] | None = None,
     damping: float = 0,
+    hertzian: bool = True,
 ) -> None:
     """Engines of the flat or of the general path, in YADE's order; `more` come last."""
     loop = GrainInteractionLoop if flat else InteractionLoop
@@ -77,7 +78,7 @@ def engines(
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb(), *bounds], label="collider"),
         loop(
-            [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom(), *geometry],
+            [Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom(hertzian=hertzian), *geometry],
             [Ip2_GrainMat_GrainMat_GrainPhys()],
             [Law2_ScGeom_GrainPhys_HertzMindlin(label="contact_law", **(law or {}))],
             label="loop",

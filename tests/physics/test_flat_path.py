@@ -99,6 +99,16 @@ def test_numerical_damping_and_blocked_motion_run_alike_on_both_paths():
     assert_equal(on_both_paths(build_damped, 300), MANY_STEPS)
 
 
+def test_walls_whose_radius_is_the_sphere_s_act_alike_on_both_paths():
+    """YADE's default for walls; all other tests have walls of a very large radius (hertzian=True)."""
+
+    def build_plain(flat: bool) -> None:
+        pack(sand())
+        engines(flat, hertzian=False)
+
+    assert_equal(on_both_paths(build_plain, 300), MANY_STEPS)
+
+
 def test_a_moving_wall_and_permanent_forces_act_alike_on_both_paths():
     def build_pushed(flat: bool) -> None:
         pack(sand())

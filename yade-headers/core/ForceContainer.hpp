@@ -34,6 +34,9 @@ public:
     ForceContainer();
     void addForce(Body::id_t id, const Vector3r& force);
     void addTorque(Body::id_t id, const Vector3r& torque);
+    /// Straight into the sums: by one thread, while they are in sync, for an id that has room.
+    void addForceUnsynced(Body::id_t id, const Vector3r& force);
+    void addTorqueUnsynced(Body::id_t id, const Vector3r& torque);
     const Vector3r& getForce(Body::id_t id);
     const Vector3r& getTorque(Body::id_t id);
     const Vector3r& getForceUnsynced(Body::id_t id);

@@ -152,6 +152,7 @@ private:
     GeneralPairs general_;
     bool moved_ = true;
     bool booking_ = false;
+    bool planes_known_ = false; // has the force container room for the planes?
     bool forces_published_ = false;
     bool contacts_published_ = false; // in the last step
     bool states_published_ = false;
@@ -161,6 +162,7 @@ private:
     void take_over_bodies(Scene& scene);
     void take_over_contacts(Scene& scene, vector<Imported>& contacts);
     Imported imported(Interaction& contact) const;
+    void note_plane_radius(int first, const Interaction& contact);
     grainfall::flat::DashpotMemory recall_dashpots(const ContactOwner& owner) const;
     void read_planes();
     vector<Imported> collect_contacts();

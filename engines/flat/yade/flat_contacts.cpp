@@ -154,6 +154,7 @@ bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& mad
     contact->iterMadeReal = contact->iterLastSeen = scene.iter;
     scene.interactions->insert(contact);
     made = imported(*contact);
+    note_plane_radius(first, *contact);
     return true;
 }
 
@@ -182,9 +183,16 @@ void FlatGrains::load_planes(Scene& scene) {
             sum.torque += domain.loads[i].torque;
             domain.loads[i] = gf::Load();
         }
-        scene.forces.addForce(bodies_.ids[i], sum.force);
-        scene.forces.addTorque(bodies_.ids[i], sum.torque);
+        // Adding the usual way would make the container sum up all bodies anew.
+        if (scene.forces.synced && planes_known_) {
+            scene.forces.addForceUnsynced(bodies_.ids[i], sum.force);
+            scene.forces.addTorqueUnsynced(bodies_.ids[i], sum.torque);
+        } else {
+            scene.forces.addForce(bodies_.ids[i], sum.force);
+            scene.forces.addTorque(bodies_.ids[i], sum.torque);
+        }
     }
+    planes_known_ = true;
 }
 
 /// Load on a sphere from the contacts of all threads; read once, then gone.

@@ -12,7 +12,8 @@ void publish_geometry(const FlatLoop& loop, const gf::ContactState& state, const
                       const FlatTouch& at, const gl::ContactGeometry& geometry) {
     ScGeom& geom = *owner.geom;
     geom.normal = at.touch.normal;
-    geom.contactPoint = loop.bodies.places[static_cast<size_t>(state.first)].centre + at.lever1;
+    geom.contactPoint =
+        loop.bodies.places[static_cast<size_t>(state.second)].centre - at.arm2 * at.touch.normal;
     geom.penetrationDepth = at.touch.overlap;
     geom.radius1 = at.touch.radius1;
     geom.radius2 = at.touch.radius2;
@@ -82,7 +83,7 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
         }
         state.normal = at.touch.normal;
         if (held == gb::BridgeState::holding)
-            apply(loop, state, at, bridge.normal_force() * at.touch.normal);
+            apply(loop, state, at, bridge.normal_force(), Vector3r::Zero());
         else if (held == gb::BridgeState::ended)
             loop.opened.push_back(i);
         if (loop.publish && at.touch.overlap < 0) {

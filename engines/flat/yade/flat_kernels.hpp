@@ -66,10 +66,17 @@ namespace flat {
 namespace gf = grainfall::flat;
 namespace gl = grainfall::laws;
 
+/// The contact point lies at arm1 n from the centre of a first sphere, at -arm2 n from that of the second.
 struct FlatTouch {
     gl::Touch touch;
-    Vector3r lever1, lever2; // from the bodies' centres to the contact point
+    Real arm1, arm2;
 };
+
+/// From the centre of a plane, wherever that is, to the contact point.
+inline Vector3r plane_lever(const gf::Bodies& bodies, const gf::ContactState& state, const FlatTouch& at) {
+    return bodies.places[static_cast<size_t>(state.second)].centre - at.arm2 * at.touch.normal -
+           bodies.places[static_cast<size_t>(state.first)].centre;
+}
 
 [[gnu::always_inline]] inline FlatTouch plane_touch(const gf::Bodies& bodies, int plane, int sphere) {
     const gf::Plane& wall = bodies.plane(plane);
@@ -82,9 +89,8 @@ struct FlatTouch {
     result.touch.overlap = ball.radius - std::abs(distance);
     result.touch.radius1 = at.radius * ball.radius;
     result.touch.radius2 = ball.radius;
-    result.lever2 = Vector3r::Zero();
-    result.lever2[wall.axis] = -distance;
-    result.lever1 = ball.centre + result.lever2 - at.centre;
+    result.arm1 = 0;
+    result.arm2 = distance * result.touch.normal[wall.axis];
     return result;
 }
 
@@ -96,19 +102,25 @@ struct FlatTouch {
     const Vector3r branch = b.centre - a.centre;
     FlatTouch result;
     result.touch = gl::touch_of_spheres(branch, branch.norm(), a.radius, b.radius);
-    result.lever1 = (a.radius - 0.5 * result.touch.overlap) * result.touch.normal;
-    result.lever2 = (0.5 * result.touch.overlap - b.radius) * result.touch.normal;
+    result.arm1 = a.radius - 0.5 * result.touch.overlap;
+    result.arm2 = b.radius - 0.5 * result.touch.overlap;
     return result;
 }
 
 [[gnu::always_inline]] inline void apply(const FlatLoop& loop, const gf::ContactState& state,
-                                         const FlatTouch& at, const Vector3r& force_on_2) {
+                                         const FlatTouch& at, Real normal_force, const Vector3r& shear) {
     gf::Load& load1 = loop.loads[state.first];
     gf::Load& load2 = loop.loads[state.second];
+    const Vector3r force_on_2 = normal_force * at.touch.normal + shear;
+    // The normal force has no arm about the centre of a sphere.
+    const Vector3r turn = at.touch.normal.cross(shear);
     load1.force -= force_on_2;
-    load1.torque -= at.lever1.cross(force_on_2);
     load2.force += force_on_2;
-    load2.torque += at.lever2.cross(force_on_2);
+    load2.torque -= at.arm2 * turn;
+    if (loop.bodies.is_plane(state.first))
+        load1.torque -= plane_lever(loop.bodies, state, at).cross(force_on_2);
+    else
+        load1.torque -= at.arm1 * turn;
 }
 
 /// YADE's objects as the general path leaves them after this step.
@@ -185,8 +197,11 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
             loop.book.rescaling += book.rescaling;
             if constexpr (Tangential::active) {
                 // Forces lie in the contact plane: the normal part of the velocity does not count.
-                const Vector3r at_contact =
-                    velocity + motion2.spin.cross(at.lever2) - motion1.spin.cross(at.lever1);
+                Vector3r at_contact = velocity - at.arm2 * motion2.spin.cross(at.touch.normal);
+                if (bodies.is_plane(state.first))
+                    at_contact -= motion1.spin.cross(plane_lever(bodies, state, at));
+                else
+                    at_contact -= at.arm1 * motion1.spin.cross(at.touch.normal);
                 const Vector3r excess = geometry.shear_increment - loop.time_step * at_contact;
                 loop.book.kinematics -= 0.5 * (shear_before + force.shear).dot(excess);
             }
@@ -197,7 +212,7 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
             state.shear_stiffness = memory.shear_stiffness;
             keep_history(contacts.owners[i], memory);
         }
-        apply(loop, state, at, force.normal * at.touch.normal + force.shear);
+        apply(loop, state, at, force.normal, force.shear);
         if (loop.publish) {
             publish_geometry(loop, state, contacts.owners[i], at, geometry);
             publish_force(state, contacts.owners[i], force, Tangential::active);

@@ -62,7 +62,7 @@ void FlatGrains::take_over(Scene& scene, int threads) {
             .segment(contact.contact_class)
             .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
     moved_ = true;
-    forces_published_ = false;
+    forces_published_ = planes_known_ = false;
 }
 
 void FlatGrains::take_over_bodies(Scene& scene) {
@@ -114,15 +114,24 @@ void FlatGrains::take_over_contacts(Scene& scene, vector<Imported>& contacts) {
         const bool ours = first >= 0 && second >= 0 && !bodies_.is_plane(second) &&
                           dynamic_cast<GrainPhys*>(contact->phys.get()) &&
                           dynamic_cast<ScGeom*>(contact->geom.get());
-        if (ours)
+        if (ours) {
             contacts.push_back(imported(*contact));
-        else
+            note_plane_radius(first, *contact);
+        } else {
             general_.adopt(contact, scene, functors);
+        }
     }
     // The container's order depends on the scene's history; this one does not.
     std::sort(contacts.begin(), contacts.end(), [](const Imported& a, const Imported& b) {
         return std::make_pair(a.state.first, a.state.second) < std::make_pair(b.state.first, b.state.second);
     });
+}
+
+/// What radius the geometry functor gives a plane, over that of the sphere (`hertzian`: a large number).
+void FlatGrains::note_plane_radius(int first, const Interaction& contact) {
+    const auto& geom = static_cast<const ScGeom&>(*contact.geom);
+    if (bodies_.is_plane(first))
+        bodies_.places[static_cast<size_t>(first)].radius = geom.refR1 / geom.refR2;
 }
 
 FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
