@@ -288,6 +288,9 @@ Eigen::MatrixXd Discretisation::stress(const Positions& displacement) const {
 }
 
 void Discretisation::write_vtu(const std::string& path, const Positions& displacement, double time) const {
+    std::ofstream file(path);
+    if (!file)
+        throw std::runtime_error("VTU file '" + path + "': cannot be written");
     const dealii::FESystem<3> element(parts_->element, 3);
     dealii::DoFHandler<3> handler(parts_->triangulation);
     handler.distribute_dofs(element);
@@ -324,11 +327,10 @@ void Discretisation::write_vtu(const std::string& path, const Positions& displac
     dealii::DataOutBase::VtkFlags flags;
     flags.time = time;
     out.set_flags(flags);
-    std::ofstream file(path);
     out.write_vtu(file);
     file.flush();
     if (!file)
-        throw std::runtime_error("VTU file '" + path + "': cannot be written");
+        throw std::runtime_error("VTU file '" + path + "': the disk is full");
 }
 
 HexMesh read_gmsh(const std::string& path, const std::vector<int>& fixed_ids,
