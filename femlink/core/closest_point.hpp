@@ -106,6 +106,7 @@ struct Minimum {
 template <int degree>
 Minimum descend(const FaceNodes<degree>& nodes, const Point& p, Reference x, int& iterations) {
     constexpr int limit = 60;
+    int polished = 0;
     Minimum out;
     out.frame = face_frame<degree>(nodes, x);
     out.squared = (out.frame.y - p).squaredNorm();
@@ -115,7 +116,7 @@ Minimum descend(const FaceNodes<degree>& nodes, const Point& p, Reference x, int
         out.is_minimum = out.last.is_minimum;
         const double size = std::sqrt(std::max(out.frame.y1.squaredNorm(), out.frame.y2.squaredNorm()));
         // Rounding in y - P limits how small the slope can get.
-        if (out.residual <= 1e-13 * size + 4e-16 * (p.norm() + out.frame.y.norm())) {
+        if (out.residual <= 1e-14 * size + 4e-16 * (p.norm() + out.frame.y.norm())) {
             out.converged = true;
             break;
         }
@@ -123,14 +124,16 @@ Minimum descend(const FaceNodes<degree>& nodes, const Point& p, Reference x, int
         Reference next = x;
         FaceFrame frame;
         double squared = out.squared, length = 1;
+        // Close to the end rounding hides in z what Newton's step still gains: it is then taken unseen.
+        const bool is_polish = out.is_minimum && out.last.direction.squaredNorm() < 1e-10;
         for (; length > 1e-4; length *= 0.5) {
             next = clamped(x + length * out.last.direction);
             frame = face_frame<degree>(nodes, next);
             squared = (frame.y - p).squaredNorm();
-            if (squared < out.squared)
+            if (squared < out.squared || is_polish)
                 break;
         }
-        if (!(squared < out.squared)) { // no descent left at this precision
+        if (!(squared < out.squared || is_polish)) { // no descent left at this precision
             out.converged = out.residual <= 1e-7 * size;
             break;
         }
@@ -138,7 +141,7 @@ Minimum descend(const FaceNodes<degree>& nodes, const Point& p, Reference x, int
         x = next;
         out.frame = frame;
         out.squared = squared;
-        if (move < 1e-15) {
+        if (move < 1e-15 || (is_polish && ++polished == 2)) {
             out.converged = true;
             break;
         }

@@ -6,7 +6,7 @@
 //
 //   G_ij = Q_i^T B_i^T C B_j Q_j        (3 x 3 each, G symmetric, positive semi-definite, m/N)
 //
-// Only rows and columns of C at nodes that carry load are touched. They are gathered once and kept while the
+// Only rows and columns of C at nodes that carry load are touched; they are gathered once and kept while the
 // loaded nodes stay the same.
 #pragma once
 
@@ -21,6 +21,11 @@ namespace grainfall::femlink {
 struct ContactSite {
     ContactPatch patch;
     Eigen::Matrix3d axes; // Q: normal towards the grain, two tangents, one column each
+
+    bool operator==(const ContactSite& other) const {
+        return patch.nodes == other.patch.nodes && patch.weights == other.patch.weights &&
+               patch.blocks == other.patch.blocks && axes == other.axes;
+    }
 };
 
 inline Eigen::Matrix3d contact_axes(const Point& normal) {
@@ -36,19 +41,31 @@ public:
     LoadedCompliance(const Surface& surface, const Eigen::MatrixXd& compliance)
         : surface_(surface), compliance_(compliance), slot_(surface.loose_count(), -1) {}
 
-    // G of these contacts. Contacts on fixed nodes get zeros: there the wall is rigid.
+    // G of these contacts. Contacts on fixed nodes, or with an empty patch, get zeros: there the wall is
+    // rigid. Only what differs from the call before is computed, contact by contact in their order: a caller
+    // that leaves a patch where it is until the contact has moved noticeably, and keeps contacts in their
+    // places, pays for the few that moved.
     const Eigen::MatrixXd& condense(const std::vector<ContactSite>& sites) {
+        const std::size_t common = std::min(sites.size(), kept_.size());
+        std::vector<char> changed(sites.size(), 1);
+        for (std::size_t i = 0; i < common; ++i)
+            changed[i] = !(sites[i] == kept_[i]);
+        matrix_.conservativeResize(3 * sites.size(), 3 * sites.size());
         gather(sites);
-        const int count = static_cast<int>(sites.size());
-        matrix_.resize(3 * count, 3 * count);
         Eigen::MatrixXd response(loaded_.rows(), 3); // displacement of the loaded nodes under contact j
-        for (int j = 0; j < count; ++j) {
+        for (std::size_t j = 0; j < sites.size(); ++j) {
+            if (!changed[j])
+                continue;
             respond(sites[j], response);
-            for (int i = 0; i <= j; ++i)
-                matrix_.block<3, 3>(3 * i, 3 * j).noalias() =
-                    sites[i].axes.transpose() * seen(sites[i], response);
+            for (std::size_t i = 0; i < sites.size(); ++i) {
+                if (changed[i] && i > j)
+                    continue;
+                const Eigen::Matrix3d block = sites[i].axes.transpose() * seen(sites[i], response);
+                matrix_.block<3, 3>(3 * j, 3 * i) = block.transpose();
+                matrix_.block<3, 3>(3 * i, 3 * j) = block;
+            }
         }
-        matrix_.triangularView<Eigen::StrictlyLower>() = matrix_.transpose();
+        kept_ = sites;
         return matrix_;
     }
 
@@ -120,6 +137,7 @@ private:
     const Eigen::MatrixXd& compliance_;
     std::vector<int> slot_, used_; // place among the loaded nodes by loose node, and the other way round
     Eigen::MatrixXd loaded_, matrix_;
+    std::vector<ContactSite> kept_; // that matrix_ is of
 };
 
 // Forces on the surface's nodes, N, one column a node, from the forces q on the grains.

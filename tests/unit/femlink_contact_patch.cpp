@@ -130,14 +130,24 @@ TEST(ContactPatch, of_several_faces_gives_way_as_a_uniformly_loaded_disc_does) {
 
 TEST(LoadedCompliance, is_symmetric_and_does_not_depend_on_what_was_loaded_before) {
     const FlatWall wall(10, h);
-    const std::vector<ContactSite> first = {wall.site(0, 0, 1.25 * h), wall.site(0.03, 0.02, 1.25 * h)};
-    const std::vector<ContactSite> second = {wall.site(0.001, 0, 1.25 * h), wall.site(-0.03, 0.02, 1.25 * h),
-                                             wall.site(0.02, -0.04, 0)};
-    LoadedCompliance used(wall.surface, wall.compliance), fresh(wall.surface, wall.compliance);
-    used.condense(first);
-    const Eigen::MatrixXd again = used.condense(second);
-    EXPECT_LT((again - fresh.condense(second)).norm(), 1e-15 * again.norm());
-    EXPECT_LT((again - again.transpose()).norm(), 1e-15 * again.norm());
+    const ContactSite here = wall.site(0, 0, 1.25 * h), there = wall.site(0.03, 0.02, 1.25 * h),
+                      nearby = wall.site(0.001, 0, 1.25 * h), elsewhere = wall.site(-0.03, 0.02, 0);
+    ContactSite none;
+    none.axes = Eigen::Matrix3d::Identity();
+    LoadedCompliance used(wall.surface, wall.compliance);
+    // One moves, one stays; one is added; two change places; one is taken out; all but one go.
+    for (const std::vector<ContactSite>& sites :
+         std::vector<std::vector<ContactSite>>{{here, there},
+                                               {nearby, there},
+                                               {nearby, there, elsewhere},
+                                               {there, nearby, elsewhere},
+                                               {there, none, elsewhere},
+                                               {there}}) {
+        LoadedCompliance fresh(wall.surface, wall.compliance);
+        const Eigen::MatrixXd expected = fresh.condense(sites), found = used.condense(sites);
+        EXPECT_LT((found - expected).norm(), 1e-15 * expected.norm());
+        EXPECT_LT((found - found.transpose()).norm(), 1e-15 * expected.norm());
+    }
 }
 
 TEST(LoadedCompliance, is_the_displacement_that_the_contacts_see_under_their_own_forces) {
