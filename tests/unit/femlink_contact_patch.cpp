@@ -89,15 +89,16 @@ TEST(ContactPatch, does_not_run_over_a_sharp_edge) {
     const ContactPatch patch = contact_patch(corner, corner.nodes, 0, {0.5, 0}, h);
     for (const int node : patch.nodes)
         EXPECT_LT(node, 4);
+    EXPECT_TRUE(patch.is_flat()); // still centred on the contact
     conserves(corner, corner.nodes, 0, {0.5, 0}, h);
 }
 
 double ripple(const FlatWall& wall, double patch) {
     double least = std::numeric_limits<double>::infinity(), most = 0;
-    for (int i = 0; i <= 6; ++i) {
-        for (int j = 0; j <= 6; ++j) {
+    for (int i = 0; i <= 3; ++i) {
+        for (int j = 0; j <= 3; ++j) {
             LoadedCompliance loaded(wall.surface, wall.compliance);
-            const double compliance = loaded.condense({wall.site(h * i / 12.0, h * j / 12.0, patch)})(0, 0);
+            const double compliance = loaded.condense({wall.site(h * i / 6.0, h * j / 6.0, patch)})(0, 0);
             least = std::min(least, compliance);
             most = std::max(most, compliance);
         }
@@ -107,7 +108,7 @@ double ripple(const FlatWall& wall, double patch) {
 
 // A node under a point load gives way more than a face's middle; over a disc the difference fades.
 TEST(ContactPatch, makes_the_compliance_nearly_the_same_all_over_a_face) {
-    const FlatWall wall(16, h);
+    const FlatWall wall(10, h);
     EXPECT_GT(ripple(wall, 0), 1.5);
     EXPECT_LT(ripple(wall, 1.0 * h), 1.04);
     EXPECT_LT(ripple(wall, 1.5 * h), 1.02);
@@ -118,7 +119,7 @@ TEST(ContactPatch, makes_the_compliance_nearly_the_same_all_over_a_face) {
 // (h/R)^2.
 TEST(ContactPatch, of_several_faces_gives_way_as_a_uniformly_loaded_disc_does) {
     const HalfSpace ground;
-    const FlatWall wall(24, h, ground);
+    const FlatWall wall(16, h, ground);
     for (const double radius : {3 * h, 4 * h}) {
         LoadedCompliance loaded(wall.surface, wall.compliance);
         const double compliance = loaded.condense({wall.site(0.2 * h, 0.3 * h, radius)})(0, 0);
