@@ -35,10 +35,10 @@ void conserves(const Surface& surface, const Positions& positions, int face, con
 
 TEST(ContactPatch, carries_force_and_moment_to_rounding_on_a_flat_surface_and_at_its_rim) {
     const FlatWall wall(8, h);
-    for (const int face : {0, 7, 27, 31, 60, 63})
-        for (const double x : {-1.0, -0.7, 0.0, 0.2, 1.0})
-            for (const double y : {-1.0, 0.1, 0.999})
-                for (const double radius : {0.0, 0.4 * h, 1.25 * h, 3 * h})
+    for (const int face : {0, 7, 27, 63})
+        for (const double x : {-1.0, 0.2, 1.0})
+            for (const double y : {-1.0, 0.999})
+                for (const double radius : {0.0, 1.25 * h, 3 * h})
                     conserves(wall.surface, wall.surface.nodes, face, {x, y}, radius);
 }
 
@@ -119,7 +119,7 @@ TEST(ContactPatch, makes_the_compliance_nearly_the_same_all_over_a_face) {
 // (h/R)^2.
 TEST(ContactPatch, of_several_faces_gives_way_as_a_uniformly_loaded_disc_does) {
     const HalfSpace ground;
-    const FlatWall wall(16, h, ground);
+    const FlatWall wall(12, h, ground);
     for (const double radius : {3 * h, 4 * h}) {
         LoadedCompliance loaded(wall.surface, wall.compliance);
         const double compliance = loaded.condense({wall.site(0.2 * h, 0.3 * h, radius)})(0, 0);
