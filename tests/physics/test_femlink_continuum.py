@@ -111,8 +111,9 @@ def test_cantilever_bends_and_does_not_lock_when_nearly_incompressible(
     beam = force * length**3 / (3 * YOUNG * side**4 / 12) + force * length / (
         5 / 6 * shear * side**2
     )
-    # Too stiff, by less as cells get smaller. Without mean dilatation degree 1 gives a fifth to a third
-    # of it at 0.4999. The clamp that keeps the section from shrinking makes a real cantilever stiffer than the beam by about a percent.
+    # Too stiff, by less as cells get smaller. Without mean dilatation degree 1 gives a fifth to a third of it at
+    # 0.4999. The clamp that keeps the section from shrinking makes a real cantilever stiffer than the beam, by
+    # about a percent.
     assert -limit < tip / beam - 1 < 0
 
 
