@@ -6,7 +6,7 @@ CMAKE_OPTIONS ?=
 DEMO_OUTPUT ?= results/demo
 DEMO_OPTIONS ?=
 
-.PHONY: all deps configure build package demo test bench bench-quick accuracy install uninstall format format-check clean
+.PHONY: all deps configure build package demo test bench bench-quick bench-wall accuracy install uninstall format format-check clean
 
 all: build
 
@@ -42,6 +42,12 @@ bench: build
 bench-quick: package
 	cmake --build $(BUILD) --target bare_loop
 	PYTHONPATH=benchmarks /usr/bin/python3 -m speed.run $(BUILD) --quick
+
+# The deformable wall: set-up, memory, a step's cost, closest point (docs/physics/far_field.md).
+bench-wall: package
+	cmake --build $(BUILD) --target closest_point_cost
+	$(BUILD)/benchmarks/closest_point_cost
+	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_cost.py
 
 # Error against time for every knob that buys accuracy: docs/accuracy.md.
 accuracy: package

@@ -57,6 +57,21 @@ set_target_properties(grainfall_core PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY "${package_dir}"
     BUILD_RPATH "${YADE_LIBRARY_DIR}" INSTALL_RPATH "${YADE_LIBRARY_DIR}")
 
+# The deformable wall in numpy: contacts without deal.II, and the continuum with it.
+find_package(pybind11 2.10 REQUIRED CONFIG)
+function(grainfall_add_femlink_module name)
+    add_library(grainfall_femlink_${name} MODULE "${PROJECT_SOURCE_DIR}/femlink/module/${name}_module.cpp")
+    target_link_libraries(grainfall_femlink_${name} PRIVATE
+        grainfall_kernels grainfall_warnings pybind11::headers Python3::Module ${ARGN})
+    # g++ 12 takes pybind11's move of an Eigen vector for a read of an unset one.
+    target_compile_options(grainfall_femlink_${name} PRIVATE -Wno-maybe-uninitialized)
+    set_target_properties(grainfall_femlink_${name} PROPERTIES
+        PREFIX "" OUTPUT_NAME "_${name}" SUFFIX ".so" LIBRARY_OUTPUT_DIRECTORY "${package_dir}/femlink"
+        CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    install(TARGETS grainfall_femlink_${name} LIBRARY DESTINATION "${python_dir}/grainfall/femlink")
+    add_dependencies(grainfall_package grainfall_femlink_${name})
+endfunction()
+
 file(GLOB_RECURSE package_sources CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/python"
      "${PROJECT_SOURCE_DIR}/python/grainfall/*.py")
 # Copies of files that are gone from the sources would be installed too.
@@ -87,3 +102,8 @@ install(DIRECTORY "${PROJECT_BINARY_DIR}/python/grainfall" DESTINATION "${python
 install(TARGETS grainfall_core LIBRARY DESTINATION "${python_dir}/grainfall")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenarios" DESTINATION share/grainfall FILES_MATCHING PATTERN "*.py")
 install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION share/doc/grainfall)
+
+grainfall_add_femlink_module(wall)
+if(GRAINFALL_CONTINUUM)
+    grainfall_add_femlink_module(continuum grainfall_continuum)
+endif()

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The wall as its contacts see it. C (m/N) is the compliance condensed to the surface: displacements of the
+// loose surface nodes under forces on them, three rows a node, u = C f. Contact i pushes the wall with
+// f_i = -Q_i q_i, where q_i = (normal force, two shear forces) acts on the grain, in its axes Q_i = (n, t1,
+// t2); B_i spreads it over the nodes of its patch. In its axes the wall then gives way by -sum_j G_ij q_j,
+//
+//   G_ij = Q_i^T B_i^T C B_j Q_j        (3 x 3 each, G symmetric, positive semi-definite, m/N)
+//
+// Only rows and columns of C at nodes that carry load are touched; they are gathered once and kept while the
+// loaded nodes stay the same.
+#pragma once
+
+#include <femlink/core/contact_patch.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace grainfall::femlink {
+
+struct ContactSite {
+    ContactPatch patch;
+    Eigen::Matrix3d axes; // Q: normal towards the grain, two tangents, one column each
+
+    bool operator==(const ContactSite& other) const {
+        return patch.nodes == other.patch.nodes && patch.weights == other.patch.weights &&
+               patch.blocks == other.patch.blocks && axes == other.axes;
+    }
+};
+
+inline Eigen::Matrix3d contact_axes(const Point& normal) {
+    Eigen::Matrix3d axes;
+    axes.col(0) = normal;
+    axes.col(1) = normal.unitOrthogonal();
+    axes.col(2) = normal.cross(axes.col(1));
+    return axes;
+}
+
+class LoadedCompliance {
+public:
+    LoadedCompliance(const Surface& surface, const Eigen::MatrixXd& compliance)
+        : surface_(surface), compliance_(compliance), slot_(surface.loose_count(), -1) {}
+
+    // G of these contacts. Contacts on fixed nodes, or with an empty patch, get zeros: there the wall is
+    // rigid. Only what differs from the call before is computed, contact by contact in their order: a caller
+    // that leaves a patch where it is until the contact has moved noticeably, and keeps contacts in their
+    // places, pays for the few that moved.
+    const Eigen::MatrixXd& condense(const std::vector<ContactSite>& sites) {
+        const std::size_t common = std::min(sites.size(), kept_.size());
+        std::vector<char> changed(sites.size(), 1);
+        for (std::size_t i = 0; i < common; ++i)
+            changed[i] = !(sites[i] == kept_[i]);
+        matrix_.conservativeResize(3 * sites.size(), 3 * sites.size());
+        gather(sites);
+        Eigen::MatrixXd response(loaded_.rows(), 3); // displacement of the loaded nodes under contact j
+        for (std::size_t j = 0; j < sites.size(); ++j) {
+            if (!changed[j])
+                continue;
+            respond(sites[j], response);
+            for (std::size_t i = 0; i < sites.size(); ++i) {
+                if (changed[i] && i > j)
+                    continue;
+                const Eigen::Matrix3d block = sites[i].axes.transpose() * seen(sites[i], response);
+                matrix_.block<3, 3>(3 * j, 3 * i) = block.transpose();
+                matrix_.block<3, 3>(3 * i, 3 * j) = block;
+            }
+        }
+        kept_ = sites;
+        return matrix_;
+    }
+
+    int loaded_nodes() const { return static_cast<int>(used_.size()); }
+
+private:
+    void gather(const std::vector<ContactSite>& sites) {
+        std::vector<int> needed;
+        bool all_there = true;
+        std::vector<char> wanted(slot_.size(), 0);
+        for (const ContactSite& site : sites) {
+            for (const int node : site.patch.nodes) {
+                const int loose = surface_.loose[node];
+                if (loose == Surface::fixed || wanted[loose])
+                    continue;
+                wanted[loose] = 1;
+                needed.push_back(loose);
+                all_there = all_there && slot_[loose] >= 0;
+            }
+        }
+        if (all_there && used_.size() <= 2 * needed.size() + 32)
+            return;
+        for (const int loose : used_)
+            slot_[loose] = -1;
+        std::sort(needed.begin(), needed.end());
+        used_ = needed;
+        const int n = static_cast<int>(used_.size());
+        for (int k = 0; k < n; ++k)
+            slot_[used_[k]] = k;
+        loaded_.resize(3 * n, 3 * n);
+        for (int b = 0; b < n; ++b)
+            for (int a = 0; a < n; ++a)
+                loaded_.block<3, 3>(3 * a, 3 * b) = compliance_.block<3, 3>(3 * used_[a], 3 * used_[b]);
+    }
+
+    // Columns: C B_j Q_j. A flat patch needs its nodes' columns only once for all three axes.
+    void respond(const ContactSite& site, Eigen::MatrixXd& response) const {
+        response.setZero();
+        for (std::size_t b = 0; b < site.patch.nodes.size(); ++b) {
+            const int loose = surface_.loose[site.patch.nodes[b]];
+            if (loose == Surface::fixed)
+                continue;
+            const auto columns = loaded_.middleCols<3>(3 * slot_[loose]);
+            if (site.patch.is_flat())
+                response += site.patch.weights[b] * columns;
+            else
+                response.noalias() += columns * site.patch.blocks[b];
+        }
+        response = response * site.axes;
+    }
+
+    // B_i^T times a displacement of the loaded nodes.
+    Eigen::Matrix3d seen(const ContactSite& site, const Eigen::MatrixXd& response) const {
+        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+        for (std::size_t a = 0; a < site.patch.nodes.size(); ++a) {
+            const int loose = surface_.loose[site.patch.nodes[a]];
+            if (loose == Surface::fixed)
+                continue;
+            const auto rows = response.middleRows<3>(3 * slot_[loose]);
+            if (site.patch.is_flat())
+                sum += site.patch.weights[a] * rows;
+            else
+                sum.noalias() += site.patch.blocks[a].transpose() * rows;
+        }
+        return sum;
+    }
+
+    const Surface& surface_;
+    const Eigen::MatrixXd& compliance_;
+    std::vector<int> slot_, used_; // place among the loaded nodes by loose node, and the other way round
+    Eigen::MatrixXd loaded_, matrix_;
+    std::vector<ContactSite> kept_; // that matrix_ is of
+};
+
+// Forces on the surface's nodes, N, one column a node, from the forces q on the grains.
+inline Positions nodal_forces(const Surface& surface, const std::vector<ContactSite>& sites,
+                              const Eigen::VectorXd& forces) {
+    Positions out = Positions::Zero(3, surface.node_count());
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        const Point push = -sites[i].axes * forces.segment<3>(3 * i);
+        for (std::size_t a = 0; a < sites[i].patch.nodes.size(); ++a)
+            out.col(sites[i].patch.nodes[a]) += sites[i].patch.block(a) * push;
+    }
+    return out;
+}
+
+// Displacements of the surface's nodes, m, under forces on them. Fixed nodes stay.
+inline Positions displacements(const Surface& surface, const Eigen::MatrixXd& compliance,
+                               const Positions& forces) {
+    Eigen::VectorXd displacement = Eigen::VectorXd::Zero(compliance.rows());
+    for (int node = 0; node < surface.node_count(); ++node) {
+        const int loose = surface.loose[node];
+        if (loose != Surface::fixed && forces.col(node) != Point::Zero())
+            displacement.noalias() += compliance.middleCols<3>(3 * loose) * forces.col(node);
+    }
+    Positions out = Positions::Zero(3, surface.node_count());
+    for (int node = 0; node < surface.node_count(); ++node)
+        if (surface.loose[node] != Surface::fixed)
+            out.col(node) = displacement.segment<3>(3 * surface.loose[node]);
+    return out;
+}
+
+// What the contact at a site sees of the surface's displacement, in its own axes.
+inline Eigen::Vector3d seen_displacement(const ContactSite& site, const Positions& displacement) {
+    Point sum = Point::Zero();
+    for (std::size_t a = 0; a < site.patch.nodes.size(); ++a)
+        sum += site.patch.block(a).transpose() * displacement.col(site.patch.nodes[a]);
+    return site.axes.transpose() * sum;
+}
+
+} // namespace grainfall::femlink
