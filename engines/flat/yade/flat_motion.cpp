@@ -60,8 +60,8 @@ Real FlatGrains::move(Scene& scene, const gf::StepRules& rules, bool keep_veloci
 }
 
 /// Flattened for the same reason as the contact loop.
-[[gnu::flatten]] FlatGrains::Moved FlatGrains::move_domain(const Domain& domain, Scene& scene,
-                                                           const gf::StepRules& rules, bool all_with_yade) {
+[[gnu::flatten, gnu::target_clones("arch=haswell", "default")]] FlatGrains::Moved
+FlatGrains::move_domain(const Domain& domain, Scene& scene, const gf::StepRules& rules, bool all_with_yade) {
     Moved result;
     for (int i = domain.begin; i < domain.end; ++i) {
         const auto at = static_cast<size_t>(i);
