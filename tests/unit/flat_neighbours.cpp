@@ -40,8 +40,9 @@ Pairs by_cells(const std::vector<Place>& spheres, double margin) {
             const int end = cells.starts[static_cast<std::size_t>(to)];
             for (int k = cells.starts[static_cast<std::size_t>(from)]; k < end; ++k) {
                 const int j = cells.order[static_cast<std::size_t>(k)];
-                if (j > i && gap(sphere, spheres[static_cast<std::size_t>(j)]) < margin)
+                if (j > i && gap(sphere, spheres[static_cast<std::size_t>(j)]) < margin) {
                     EXPECT_TRUE(pairs.emplace(i, j).second) << "visited twice: " << i << ", " << j;
+                }
             }
         });
     }
@@ -95,8 +96,9 @@ TEST(NeighboursOfABox, hold_every_sphere_that_reaches_into_it) {
         const Vector reach = Vector::Constant(sphere.radius);
         const bool meets = ((sphere.centre + reach).array() >= low.array()).all() &&
                            ((sphere.centre - reach).array() <= high.array()).all();
-        if (meets)
+        if (meets) {
             EXPECT_TRUE(visited.count(i)) << i;
+        }
     }
     EXPECT_LT(visited.size(), 300u);
 }
