@@ -57,12 +57,15 @@ Found<Functor> nearest(const vector<shared_ptr<Functor>>& functors, const string
     return best;
 }
 
+/// The pointers are the scene's own: those that Python hands out must not be let go without its lock.
 template <class Functor>
 vector<shared_ptr<Functor>> functors_of(const py::object& engine, const char* dispatcher) {
     const py::object list = engine.attr(dispatcher).attr("functors");
     vector<shared_ptr<Functor>> functors;
-    for (int i = 0; i < py::len(list); ++i)
-        functors.push_back(py::extract<shared_ptr<Functor>>(list[i]));
+    for (int i = 0; i < py::len(list); ++i) {
+        Functor* functor = py::extract<Functor*>(list[i]);
+        functors.push_back(boost::dynamic_pointer_cast<Functor>(functor->shared_from_this()));
+    }
     return functors;
 }
 
