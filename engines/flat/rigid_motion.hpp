@@ -27,28 +27,6 @@ inline Eigen::Vector4d quaternion_rate(const Vector& spin, const Eigen::Quaterni
     return 0.5 * (q * Eigen::Quaterniond(0, spin[0], spin[1], spin[2])).coeffs();
 }
 
-inline void accelerate(RigidBody& body, const Vector& force, const StepRules& rules) {
-    const double damping = body.inertia.damped ? rules.damping : 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (body.inertia.blocked & (1u << axis))
-            continue;
-        const double push = force[axis] / body.inertia.mass, pull = rules.gravity[axis];
-        const double v = body.velocity[axis], dt = rules.time_step;
-        body.velocity[axis] += dt * (rules.damps_gravity ? damped(push + pull, v, damping, dt)
-                                                         : damped(push, v, damping, dt) + pull);
-    }
-}
-
-inline void spin_up(RigidBody& body, const Vector& torque, const StepRules& rules) {
-    const double damping = body.inertia.damped ? rules.damping : 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (body.inertia.blocked & (8u << axis))
-            continue;
-        const double push = torque[axis] / body.inertia.inertia[axis];
-        body.spin[axis] += rules.time_step * damped(push, body.spin[axis], damping, rules.time_step);
-    }
-}
-
 inline void tumble(RigidBody& body, Vector torque, const StepRules& rules) {
     const double dt = rules.time_step;
     if (body.inertia.damped)
@@ -77,9 +55,9 @@ inline void advance(RigidBody& body, const Vector& force, const Vector& torque, 
     constexpr unsigned all = 63, rotations = 56;
     const bool tumbles = aspherical && !(body.inertia.blocked & rotations);
     if (body.inertia.blocked != all) {
-        detail::accelerate(body, force, rules);
+        accelerate(body.velocity, force, body.inertia, rules);
         if (!tumbles)
-            detail::spin_up(body, torque, rules);
+            spin_up(body.spin, torque, body.inertia, rules);
     }
     body.centre += rules.time_step * body.velocity;
     if (tumbles)

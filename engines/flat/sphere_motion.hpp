@@ -26,6 +26,28 @@ inline double damped(double acceleration, double velocity, double damping, doubl
     return power > 0 ? acceleration * (1 - damping) : power < 0 ? acceleration * (1 + damping) : acceleration;
 }
 
+// New velocity of whatever axes are free, under local damping where it is asked for.
+inline void accelerate(Vector& velocity, const Vector& force, const Inertia& inertia,
+                       const StepRules& rules) {
+    const double damping = inertia.damped ? rules.damping : 0, dt = rules.time_step;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (inertia.blocked & (1u << axis))
+            continue;
+        const double push = force[axis] / inertia.mass, pull = rules.gravity[axis], v = velocity[axis];
+        velocity[axis] += dt * (rules.damps_gravity ? damped(push + pull, v, damping, dt)
+                                                    : damped(push, v, damping, dt) + pull);
+    }
+}
+
+inline void spin_up(Vector& spin, const Vector& torque, const Inertia& inertia, const StepRules& rules) {
+    const double damping = inertia.damped ? rules.damping : 0, dt = rules.time_step;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (inertia.blocked & (8u << axis))
+            continue;
+        spin[axis] += dt * damped(torque[axis] / inertia.inertia[axis], spin[axis], damping, dt);
+    }
+}
+
 // q after turning by the rotation vector `turn`. The series are good to the last bit below 0.1 rad.
 [[gnu::always_inline]] inline Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Vector& turn) {
     const double square = turn.squaredNorm();
@@ -62,19 +84,8 @@ inline double damped(double acceleration, double velocity, double damping, doubl
         motion.velocity += dt * (force / inertia.mass + rules.gravity);
         motion.spin += dt * torque.cwiseQuotient(inertia.inertia);
     } else {
-        const double damping = inertia.damped ? rules.damping : 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!(inertia.blocked & (1u << axis))) {
-                const double push = force[axis] / inertia.mass, pull = rules.gravity[axis];
-                const double v = motion.velocity[axis];
-                motion.velocity[axis] += dt * (rules.damps_gravity ? damped(push + pull, v, damping, dt)
-                                                                   : damped(push, v, damping, dt) + pull);
-            }
-            if (!(inertia.blocked & (8u << axis))) {
-                const double push = torque[axis] / inertia.inertia[axis];
-                motion.spin[axis] += dt * damped(push, motion.spin[axis], damping, dt);
-            }
-        }
+        accelerate(motion.velocity, force, inertia, rules);
+        spin_up(motion.spin, torque, inertia, rules);
     }
     centre += dt * motion.velocity;
     Eigen::Quaterniond& orientation = bodies.orientations[i];

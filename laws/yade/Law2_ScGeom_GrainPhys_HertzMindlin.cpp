@@ -4,6 +4,7 @@
 #include <laws/yade/contact_kernels.hpp>
 #include <laws/yade/effects.hpp>
 #include <laws/yade/stored_energy.hpp>
+#include <laws/yade/tangential_choice.hpp>
 #include <laws/yade/water_budget.hpp>
 
 #include <core/EnergyTracker.hpp>
@@ -60,11 +61,8 @@ void Law2_ScGeom_GrainPhys_HertzMindlin::postLoad(Law2_ScGeom_GrainPhys_HertzMin
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::choose_kernels() {
-    const KernelTables& tables = tangentialLaw == "mindlin-deresiewicz" ? partial_slip_kernels()
-                                 : tangentialLaw == "report"            ? report_kernels()
-                                 : tangentialLaw == "secant"            ? secant_kernels()
-                                 : tangentialLaw == "none"              ? frictionless_kernels()
-                                                                        : incremental_kernels();
+    const KernelTables& tables = by_tangential_law(tangentialLaw, &incremental_kernels, &partial_slip_kernels,
+                                                   &secant_kernels, &report_kernels, &frictionless_kernels)();
     const KernelTables::Pair& pair = normalLaw == "report" ? tables.report : tables.hertz;
     kernels_ = {&pair.plain, &pair.booking};
     const std::lock_guard<std::mutex> lock(laws_mutex);

@@ -13,8 +13,8 @@
 //   publish    arrays -> YADE's objects
 #pragma once
 
+#include <engines/flat/motion_book.hpp>
 #include <engines/flat/neighbours.hpp>
-#include <engines/flat/sphere_motion.hpp>
 #include <engines/flat/yade/flat_kernels.hpp>
 #include <engines/flat/yade/functor_lists.hpp>
 #include <engines/flat/yade/general_pairs.hpp>
@@ -53,18 +53,6 @@ public:
         long steps = 0, searches = 0, takeovers = 0, publications = 0, born = 0, parted = 0;
     };
 
-    /// J, what NewtonIntegrator would book for the spheres in this step.
-    struct MotionBook {
-        Real translation = 0, rotation = 0, gravity_work = 0, damping = 0;
-        MotionBook& operator+=(const MotionBook& other) {
-            translation += other.translation;
-            rotation += other.rotation;
-            gravity_work += other.gravity_work;
-            damping += other.damping;
-            return *this;
-        }
-    };
-
     FunctorLists functors;
     Census census;
 
@@ -100,9 +88,10 @@ public:
     size_t general_count() const { return general_.size(); }
     int sphere_count() const { return bodies_.spheres(); }
 
-    const MotionBook& motion_book() const { return motion_book_; }
+    /// Of the spheres in this step.
+    const grainfall::flat::MotionBook& motion_book() const { return motion_book_; }
     bool states_are_published() const { return states_published_; }
-    Real smallest_radius() const;
+    Real smallest_radius() const { return smallest_radius_; }
 
 private:
     /// Where a sphere was at the last search, and how far it may go until the next.
@@ -126,7 +115,7 @@ private:
         Box room;
     };
     struct Moved {
-        MotionBook book;
+        grainfall::flat::MotionBook book;
         Real fastest = 0; // m2/s2
         bool beyond_margin = false;
     };
@@ -143,7 +132,8 @@ private:
     vector<int> index_of_; // by id, -1: not flat
     vector<Body*> others_;
     vector<Roamer> roamers_;
-    Real giant_radius_ = 0;
+    Real smallest_radius_ = 0;
+    Real giant_radius_ = 0; // a sphere larger than that is a giant
     vector<int> giants_;
     vector<int> touched_by_others_; // flat spheres in general pairs, by index
     vector<Anchor> anchors_;        // by index
@@ -156,7 +146,7 @@ private:
     bool forces_published_ = false;
     bool contacts_published_ = false; // in the last step
     bool states_published_ = false;
-    MotionBook motion_book_;
+    grainfall::flat::MotionBook motion_book_;
     bool same_masks_ = true;
 
     void take_over_bodies(Scene& scene);
@@ -168,7 +158,7 @@ private:
     vector<Imported> collect_contacts();
     void place_contacts(const vector<Imported>& contacts);
     void set_anchors(Reach reach);
-    void find_giants();
+    void measure_radii();
     bool is_giant(int sphere) const {
         return bodies_.places[static_cast<size_t>(sphere)].radius > giant_radius_;
     }

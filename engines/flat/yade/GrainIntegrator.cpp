@@ -16,20 +16,13 @@ namespace gf = grainfall::flat;
 
 GrainIntegrator::~GrainIntegrator() = default;
 
-GrainInteractionLoop* GrainIntegrator::loop() const {
-    for (const auto& engine : scene->engines)
-        if (auto* found = dynamic_cast<GrainInteractionLoop*>(engine.get()))
-            return found;
-    return nullptr;
-}
-
 void GrainIntegrator::action() {
-    GrainInteractionLoop* contacts = loop();
-    FlatGrains* grains = contacts && !contacts->dead ? contacts->grains() : nullptr;
+    FlatGrains* grains = flat_grains(*scene);
     if (!grains) {
         NewtonIntegrator::action();
         return;
     }
+    auto* contacts = engine_of<GrainInteractionLoop>(*scene);
     const Look& look = contacts->look();
     if (look.changes_between == Changed::anything)
         contacts->take_over_between();
@@ -48,7 +41,7 @@ void GrainIntegrator::action() {
         settle_books(grains->motion_book());
     if (look.after)
         grains->publish_states();
-    contacts->step_done(look.after);
+    contacts->step_done();
 }
 
 /// A body that is no flat sphere: as NewtonIntegrator does it.
@@ -56,30 +49,17 @@ void GrainIntegrator::move_other(Body& body, const gf::StepRules& rules) {
     State& state = *body.state;
     const Vector3r& force = scene->forces.getForce(body.id);
     const Vector3r& torque = scene->forces.getTorque(body.id);
-    if (scene->trackEnergy)
-        book(body, force, torque);
-    gf::RigidBody rigid{state.pos,    state.ori,
-                        state.vel,    state.angVel,
-                        state.angMom, {state.mass, state.inertia, state.blockedDOFs, state.isDamped}};
-    gf::advance(rigid, force, torque, rules, exactAsphericalRot && body.isAspherical());
-}
-
-/// As NewtonIntegrator books it: before the step, with the velocities of the step before.
-void GrainIntegrator::book(const Body& body, const Vector3r& force, const Vector3r& torque) {
-    const State& state = *body.state;
-    booked_.translation += 0.5 * state.mass * state.vel.squaredNorm();
-    const Vector3r spin = body.isAspherical() ? Vector3r(state.ori.conjugate() * state.angVel) : state.angVel;
-    booked_.rotation += 0.5 * spin.dot(state.inertia.cwiseProduct(spin));
-    booked_.gravity_work -= gravity.dot(state.vel) * state.mass * scene->dt;
-    if (damping != 0 && state.isDamped) {
-        const Vector3r push = force + state.mass * gravity;
-        booked_.damping +=
-            (state.vel.cwiseAbs().dot(push.cwiseAbs()) + state.angVel.cwiseAbs().dot(torque.cwiseAbs())) *
-            damping * scene->dt;
+    const bool aspherical = body.isAspherical();
+    const gf::Inertia inertia{state.mass, state.inertia, state.blockedDOFs, state.isDamped};
+    if (scene->trackEnergy) {
+        const Vector3r own_spin = aspherical ? Vector3r(state.ori.conjugate() * state.angVel) : state.angVel;
+        booked_.add(inertia, {state.vel, state.angVel}, own_spin, force, torque, rules);
     }
+    gf::RigidBody rigid{state.pos, state.ori, state.vel, state.angVel, state.angMom, inertia};
+    gf::advance(rigid, force, torque, rules, exactAsphericalRot && aspherical);
 }
 
-void GrainIntegrator::settle_books(const FlatGrains::MotionBook& grains) {
+void GrainIntegrator::settle_books(const gf::MotionBook& grains) {
     booked_ += grains;
     EnergyTracker& energy = *scene->energy;
     if (kinSplit) {

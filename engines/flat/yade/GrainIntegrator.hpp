@@ -2,14 +2,12 @@
 // Drop-in for NewtonIntegrator beside GrainInteractionLoop.
 #pragma once
 
-#include <engines/flat/yade/FlatGrains.hpp>
+#include <engines/flat/motion_book.hpp>
 
 #include <core/Body.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 
 namespace yade {
-
-class GrainInteractionLoop;
 
 class GrainIntegrator : public NewtonIntegrator {
 public:
@@ -25,12 +23,10 @@ public:
     // clang-format on
 
 private:
-    GrainInteractionLoop* loop() const;
     void move_other(Body& body, const grainfall::flat::StepRules& rules);
-    void book(const Body& body, const Vector3r& force, const Vector3r& torque);
-    void settle_books(const FlatGrains::MotionBook& grains);
+    void settle_books(const grainfall::flat::MotionBook& grains);
 
-    FlatGrains::MotionBook booked_; // of bodies that are no flat spheres, in this step
+    grainfall::flat::MotionBook booked_; // of bodies that are no flat spheres, in this step
 };
 REGISTER_SERIALIZABLE(GrainIntegrator);
 

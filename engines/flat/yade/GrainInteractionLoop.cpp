@@ -3,11 +3,11 @@
 
 #include <engines/flat/yade/GrainIntegrator.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
+#include <laws/yade/tangential_choice.hpp>
 
 #include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
-#include <pkg/common/Sphere.hpp>
 
 #include <omp.h>
 
@@ -37,20 +37,14 @@ shared_ptr<Engine> GrainInteractionLoop::find_engine(const char* class_name) con
     return {};
 }
 
-const GrainIntegrator* GrainInteractionLoop::integrator() const {
-    for (const auto& engine : scene->engines)
-        if (const auto* found = dynamic_cast<const GrainIntegrator*>(engine.get()))
-            return found;
-    return nullptr;
-}
-
 void GrainInteractionLoop::action() {
     run_thread_.store(std::this_thread::get_id());
     if (stop_requested_.exchange(false))
         scene->stopAtIter = scene->iter + 1;
     take_the_time();
-    if (changed_ == Changed::anything || !grains_ || scene->bodies->body.size() != body_count_) {
+    if (changed_ == Changed::anything || flat != wanted_flat_ || scene->bodies->body.size() != body_count_) {
         flat_step_ = can_run_flat();
+        wanted_flat_ = flat;
         if (flat_step_)
             grains_->take_over(*scene, threads());
         body_count_ = scene->bodies->body.size();
@@ -58,11 +52,13 @@ void GrainInteractionLoop::action() {
         grains_->take_over_states();
     }
     if (!flat_step_) {
+        // What stands in the way is not looked for anew in every step.
+        changed_ = last_step(*scene) ? Changed::anything : Changed::nothing;
         InteractionLoop::action();
         return;
     }
     grains_->functors.set_scene(scene);
-    look_ = who_looks(*scene, *this, *integrator(), blindEngines, step_seconds_);
+    look_ = who_looks(*scene, *this, *engine_of<GrainIntegrator>(*scene), blindEngines, step_seconds_);
     const Real clock = PeriodicEngine::getClock();
     if (clock - last_shown_ > viewer_period) {
         last_shown_ = clock;
@@ -71,12 +67,11 @@ void GrainInteractionLoop::action() {
     if (grains_->must_search())
         grains_->search(reach());
     grains_->contacts(*scene, tables(), look_.contacts);
-    if (look_.between && !states_true_)
+    if (look_.between && !grains_->states_are_published())
         grains_->publish_states();
 }
 
-void GrainInteractionLoop::step_done(bool states_published) {
-    states_true_ = states_published;
+void GrainInteractionLoop::step_done() {
     changed_ = look_.changes_after;
 }
 
@@ -92,7 +87,7 @@ void GrainInteractionLoop::take_over_between() {
 
 bool GrainInteractionLoop::can_run_flat() {
     std::string reason;
-    const GrainIntegrator* newton = integrator();
+    const auto* newton = engine_of<GrainIntegrator>(*scene);
     if (!flat)
         reason = "flat = False";
     else if (!newton || newton->dead)
@@ -150,12 +145,9 @@ FlatGrains::Reach GrainInteractionLoop::reach() const {
 
 const FlatTables::Pair& GrainInteractionLoop::tables() const {
     const Law2_ScGeom_GrainPhys_HertzMindlin& law = *grains_->functors.grain_law;
-    const string& name = law.tangentialLaw;
-    const FlatTables& tables = name == "mindlin-deresiewicz" ? partial_slip_flat_kernels()
-                               : name == "report"            ? report_flat_kernels()
-                               : name == "secant"            ? secant_flat_kernels()
-                               : name == "none"              ? frictionless_flat_kernels()
-                                                             : incremental_flat_kernels();
+    const FlatTables& tables =
+        by_tangential_law(law.tangentialLaw, &incremental_flat_kernels, &partial_slip_flat_kernels,
+                          &secant_flat_kernels, &report_flat_kernels, &frictionless_flat_kernels)();
     return law.normalLaw == "report" ? tables.report : tables.hertz;
 }
 
@@ -189,10 +181,8 @@ boost::python::dict GrainInteractionLoop::statistics() const {
 }
 
 FlatGrains* flat_grains(const Scene& scene) {
-    for (const auto& engine : scene.engines)
-        if (auto* loop = dynamic_cast<GrainInteractionLoop*>(engine.get()))
-            return loop->dead ? nullptr : loop->grains();
-    return nullptr;
+    auto* loop = engine_of<GrainInteractionLoop>(scene);
+    return loop && !loop->dead ? loop->grains() : nullptr;
 }
 
 } // namespace yade

@@ -13,8 +13,6 @@
 
 namespace yade {
 
-class GrainIntegrator;
-
 class GrainInteractionLoop : public InteractionLoop {
 public:
     virtual ~GrainInteractionLoop();
@@ -27,7 +25,7 @@ public:
     FlatGrains* grains() { return flat_step_ ? grains_.get() : nullptr; }
     const Look& look() const { return look_; }
     /// By the integrator, at the end of a step.
-    void step_done(bool states_published);
+    void step_done();
     /// After Python or an engine may have changed everything between the loop and the integrator.
     void take_over_between();
 
@@ -73,7 +71,7 @@ private:
     std::unique_ptr<FlatGrains> grains_;
     std::string path_ = "not yet run";
     bool flat_step_ = false;
-    bool states_true_ = false;
+    bool wanted_flat_ = true; // `flat` when the path was chosen
     Changed changed_ = Changed::anything;
     size_t body_count_ = 0;
     Look look_;
@@ -82,7 +80,6 @@ private:
     std::atomic<std::thread::id> run_thread_{};
 
     shared_ptr<Engine> find_engine(const char* class_name) const;
-    const GrainIntegrator* integrator() const;
     bool can_run_flat();
     void leave_flat_path(const std::string& reason);
     void rest_collider(bool rest);
@@ -92,6 +89,15 @@ private:
     void take_the_time();
 };
 REGISTER_SERIALIZABLE(GrainInteractionLoop);
+
+/// The first engine of this class; null where there is none.
+template <class Kind>
+Kind* engine_of(const Scene& scene) {
+    for (const auto& engine : scene.engines)
+        if (auto* found = dynamic_cast<Kind*>(engine.get()))
+            return found;
+    return nullptr;
+}
 
 /// The packed grains of a scene in this step; null on the general path.
 FlatGrains* flat_grains(const Scene& scene);

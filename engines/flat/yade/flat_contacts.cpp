@@ -138,9 +138,6 @@ bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& mad
     const auto physics = functors.physics(*body1->material, *body2->material);
     if (!geometry)
         return false;
-    if (!physics)
-        throw std::runtime_error("no Ip2 functor for " + body1->material->getClassName() + " and " +
-                                 body2->material->getClassName());
     const shared_ptr<Interaction> contact(new Interaction(body1->id, body2->id));
     if (!geometry->go(body1->shape, body2->shape, *body1->state, *body2->state, Vector3r::Zero(), false,
                       contact))

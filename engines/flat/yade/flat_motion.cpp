@@ -4,29 +4,9 @@
 
 #include <core/State.hpp>
 
-#include <limits>
-
 namespace yade {
 
 namespace gf = grainfall::flat;
-
-namespace {
-
-/// As NewtonIntegrator books it: before the step, with the velocities of the step before.
-void book(FlatGrains::MotionBook& sums, const gf::Inertia& inertia, const gf::Motion& motion,
-          const Vector3r& force, const Vector3r& torque, const gf::StepRules& rules) {
-    sums.translation += 0.5 * inertia.mass * motion.velocity.squaredNorm();
-    sums.rotation += 0.5 * motion.spin.dot(inertia.inertia.cwiseProduct(motion.spin));
-    sums.gravity_work -= rules.gravity.dot(motion.velocity) * inertia.mass * rules.time_step;
-    if (rules.damping == 0 || !inertia.damped)
-        return;
-    const Vector3r push = force + inertia.mass * rules.gravity;
-    sums.damping +=
-        (motion.velocity.cwiseAbs().dot(push.cwiseAbs()) + motion.spin.cwiseAbs().dot(torque.cwiseAbs())) *
-        rules.damping * rules.time_step;
-}
-
-} // namespace
 
 Real FlatGrains::move(Scene& scene, const gf::StepRules& rules, bool keep_velocities) {
     ForceContainer& forces = scene.forces;
@@ -71,7 +51,8 @@ FlatGrains::move_domain(const Domain& domain, Scene& scene, const gf::StepRules&
             load.torque += scene.forces.getTorque(bodies_.ids[at]);
         }
         if (booking_)
-            book(result.book, bodies_.inertias[at], bodies_.motions[at], load.force, load.torque, rules);
+            result.book.add(bodies_.inertias[at], bodies_.motions[at], bodies_.motions[at].spin, load.force,
+                            load.torque, rules);
         gf::advance(bodies_, at, load.force, load.torque, rules);
         result.fastest = std::max(result.fastest, bodies_.motions[at].velocity.squaredNorm());
         const Anchor& anchor = anchors_[at];
@@ -96,13 +77,6 @@ void FlatGrains::publish_states() {
 #pragma omp parallel for schedule(static) num_threads(static_cast <int>(domains_.size()))
     for (int i = 0; i < bodies_.spheres(); ++i)
         publish_state(static_cast<size_t>(i));
-}
-
-Real FlatGrains::smallest_radius() const {
-    Real least = std::numeric_limits<Real>::infinity();
-    for (int i = 0; i < bodies_.spheres(); ++i)
-        least = std::min(least, bodies_.places[static_cast<size_t>(i)].radius);
-    return std::isfinite(least) ? least : 0;
 }
 
 size_t FlatGrains::contact_count() const {

@@ -5,8 +5,6 @@
 #include <core/Aabb.hpp>
 #include <core/State.hpp>
 
-#include <limits>
-
 namespace yade {
 
 namespace gf = grainfall::flat;
@@ -40,18 +38,17 @@ void FlatGrains::search(Reach reach) {
     read_planes();
     vector<Imported> contacts = collect_contacts();
     set_anchors(reach);
-    find_giants();
     Real farthest = 0;
     for (int i = 0; i < bodies_.spheres(); ++i) {
         const auto at = static_cast<size_t>(i);
-        if (bodies_.places[at].radius <= giant_radius_)
+        if (!is_giant(i))
             farthest = std::max(farthest, bodies_.places[at].radius + anchors_[at].margin);
     }
     const gf::CellTable cells(bodies_.places, bodies_.spheres(), farthest);
     sort_spheres(cells, contacts);
     giants_.clear();
     for (int i = 0; i < bodies_.spheres(); ++i)
-        if (bodies_.places[static_cast<size_t>(i)].radius > giant_radius_)
+        if (is_giant(i))
             giants_.push_back(i);
     place_contacts(contacts);
 
@@ -76,20 +73,6 @@ vector<FlatGrains::Imported> FlatGrains::collect_contacts() {
         domain.opened.clear();
     }
     return contacts;
-}
-
-/// Few spheres that are much larger than the others would make the cells of all others too large; they look
-/// for their neighbours by themselves. A radius above `giant_radius_` makes a giant.
-void FlatGrains::find_giants() {
-    vector<Real> radii;
-    for (int i = 0; i < bodies_.spheres(); ++i)
-        radii.push_back(bodies_.places[static_cast<size_t>(i)].radius);
-    giant_radius_ = std::numeric_limits<Real>::infinity();
-    if (radii.empty())
-        return;
-    const size_t place = radii.size() - 1 - std::min(radii.size() / 1000 + 8, radii.size() - 1);
-    std::nth_element(radii.begin(), radii.begin() + static_cast<long>(place), radii.end());
-    giant_radius_ = 2 * radii[place];
 }
 
 /// A sphere at rest gets the skin, a moving one what it travels besides; no more than its radius, or a few

@@ -11,6 +11,9 @@
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 
+#include <algorithm>
+#include <limits>
+
 namespace yade {
 
 namespace gf = grainfall::flat;
@@ -52,6 +55,7 @@ void FlatGrains::take_over(Scene& scene, int threads) {
     domains_.clear();
     domains_.resize(static_cast<size_t>(threads));
     take_over_bodies(scene);
+    measure_radii();
     scene.interactions->eraseNonReal();
     vector<Imported> contacts;
     take_over_contacts(scene, contacts);
@@ -102,6 +106,22 @@ void FlatGrains::take_over_bodies(Scene& scene) {
         bodies_.motions.push_back({body->state->vel, body->state->angVel});
         bodies_.planes.push_back({wall.axis, wall.sense});
     }
+}
+
+/// Few spheres that are much larger than the others would make the cells of all others too large: as giants
+/// they look for their neighbours by themselves.
+void FlatGrains::measure_radii() {
+    vector<Real> radii;
+    for (int i = 0; i < bodies_.spheres(); ++i)
+        radii.push_back(bodies_.places[static_cast<size_t>(i)].radius);
+    smallest_radius_ = 0;
+    giant_radius_ = std::numeric_limits<Real>::infinity();
+    if (radii.empty())
+        return;
+    smallest_radius_ = *std::min_element(radii.begin(), radii.end());
+    const size_t place = radii.size() - 1 - std::min(radii.size() / 1000 + 8, radii.size() - 1);
+    std::nth_element(radii.begin(), radii.begin() + static_cast<long>(place), radii.end());
+    giant_radius_ = 2 * radii[place];
 }
 
 void FlatGrains::take_over_contacts(Scene& scene, vector<Imported>& contacts) {

@@ -7,6 +7,7 @@
 #include <core/Omega.hpp>
 
 #include <limits>
+#include <stdexcept>
 
 namespace yade {
 
@@ -154,7 +155,10 @@ shared_ptr<IPhysFunctor> FunctorLists::physics(const Material& first, const Mate
     const auto known = found_physics_.find(names);
     if (known != found_physics_.end())
         return known->second;
-    return found_physics_[names] = nearest(physics_, names.first, names.second, true).functor;
+    const auto functor = nearest(physics_, names.first, names.second, true).functor;
+    if (!functor)
+        throw std::runtime_error("no Ip2 functor for " + names.first + " and " + names.second);
+    return found_physics_[names] = functor;
 }
 
 shared_ptr<LawFunctor> FunctorLists::law(const IGeom& geometry, const IPhys& physics) {

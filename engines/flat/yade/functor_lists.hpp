@@ -27,6 +27,7 @@ public:
     void set_scene(Scene* scene) const;
 
     Found<IGeomFunctor> geometry(const Shape& first, const Shape& second);
+    /// Throws std::runtime_error if there is none.
     shared_ptr<IPhysFunctor> physics(const Material& first, const Material& second);
     shared_ptr<LawFunctor> law(const IGeom& geometry, const IPhys& physics);
     shared_ptr<BoundFunctor> bound(const Shape& shape);

@@ -21,11 +21,6 @@ std::pair<Body::id_t, Body::id_t> key(const Body& first, const Body& second) {
     return std::minmax(first.id, second.id);
 }
 
-[[noreturn]] void no_physics(const Body& first, const Body& second) {
-    throw std::runtime_error("no Ip2 functor for " + first.material->getClassName() + " and " +
-                             second.material->getClassName());
-}
-
 } // namespace
 
 void GeneralPairs::adopt(const shared_ptr<Interaction>& contact, Scene& scene, FunctorLists& functors) {
@@ -75,8 +70,6 @@ void GeneralPairs::step(GeneralPair& pair, Scene& scene, FunctorLists& functors)
     }
     if (!contact->phys) {
         const auto physics = functors.physics(*pair.first->material, *pair.second->material);
-        if (!physics)
-            no_physics(*pair.first, *pair.second);
         contact->functorCache.geom = pair.geometry;
         contact->functorCache.phys = physics;
         physics->go(pair.first->material, pair.second->material, contact);
