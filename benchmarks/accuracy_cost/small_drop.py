@@ -22,6 +22,7 @@ FIXED = {
     "checkpoint_interval": 1.0,
     "no_plots": True,
     "quiet": True,
+    "path": "general",  # as all runs kept in the results: their times are compared
 }
 GRAIN = 8e-3
 PACKINGS = (1, 2, 3, 4)
