@@ -39,6 +39,7 @@ target_link_libraries(yade_interface INTERFACE
 file(GLOB extension_sources CONFIGURE_DEPENDS
     "${PROJECT_SOURCE_DIR}/laws/yade/*.cpp"
     "${PROJECT_SOURCE_DIR}/engines/*/yade/*.cpp"
+    "${PROJECT_SOURCE_DIR}/femlink/yade/*.cpp"
     "${PROJECT_SOURCE_DIR}/python/module/*.cpp")
 add_library(grainfall_core MODULE ${extension_sources})
 target_link_libraries(grainfall_core PRIVATE yade_interface grainfall_warnings)
@@ -47,7 +48,8 @@ target_compile_options(grainfall_core PRIVATE -fno-math-errno)
 # At -O2 the compiler leaves Eigen's loops over three numbers out of line where several kernels share them, and a
 # contact costs a fifth more than the same law written by hand (benchmarks/effect_cost/measure.py).
 file(GLOB inner_loops CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/laws/yade/contact_kernels_*.cpp"
-     "${PROJECT_SOURCE_DIR}/laws/yade/wet_contact.cpp" "${PROJECT_SOURCE_DIR}/engines/flat/yade/flat_*.cpp")
+     "${PROJECT_SOURCE_DIR}/laws/yade/wet_contact.cpp" "${PROJECT_SOURCE_DIR}/engines/flat/yade/flat_*.cpp"
+     "${PROJECT_SOURCE_DIR}/femlink/yade/FemWall.cpp")
 set_source_files_properties(${inner_loops} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 # Boost.Python and Eigen are most of a translation unit's compile time.
 target_precompile_headers(grainfall_core PRIVATE <lib/serialization/Serializable.hpp>)

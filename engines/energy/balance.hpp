@@ -21,6 +21,7 @@ enum class Term {
     elastic_normal,
     elastic_shear,
     bridge,
+    far_field,
     friction,
     viscous,
     rescaling,
@@ -41,13 +42,14 @@ struct TermName {
 };
 
 // In the order of Term.
-constexpr std::array<TermName, 14> term_names = {{
+constexpr std::array<TermName, 15> term_names = {{
     {Term::kinetic_translation, "kineticTranslation", Kind::stored, nullptr},
     {Term::kinetic_rotation, "kineticRotation", Kind::stored, nullptr},
     {Term::potential, "potential", Kind::stored, nullptr},
     {Term::elastic_normal, "elasticNormal", Kind::stored, nullptr},
     {Term::elastic_shear, "elasticShear", Kind::stored, nullptr},
     {Term::bridge, "bridge", Kind::stored, nullptr},
+    {Term::far_field, "farField", Kind::stored, nullptr},
     {Term::friction, "friction", Kind::dissipated, "grainFriction"},
     {Term::viscous, "viscous", Kind::dissipated, "grainViscous"},
     {Term::rescaling, "rescaling", Kind::dissipated, "grainRescaling"},

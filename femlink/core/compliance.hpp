@@ -20,7 +20,7 @@ namespace grainfall::femlink {
 
 struct ContactSite {
     ContactPatch patch;
-    Eigen::Matrix3d axes; // Q: normal towards the grain, two tangents, one column each
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); // Q: normal towards the grain, two tangents by column
 
     bool operator==(const ContactSite& other) const {
         return patch.nodes == other.patch.nodes && patch.weights == other.patch.weights &&

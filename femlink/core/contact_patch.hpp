@@ -34,6 +34,9 @@ inline double disc_compliance(double young, double poisson, double radius) {
     return 16 * (1 - poisson * poisson) / (3 * pi * pi * young * radius);
 }
 
+// Cosine of the sharpest edge (37 degrees) over which the surface counts as one and a patch runs.
+inline constexpr double smooth_cosine = 0.8;
+
 struct ContactPatch {
     std::vector<int> nodes; // of the surface
     std::vector<double> weights;
@@ -110,8 +113,6 @@ private:
     static constexpr double squared_radius[rings] = {0.11270166537925831, 0.5, 0.88729833462074169};
     static constexpr double ring_weight[rings] = {5. / 18 / (2 * pairs), 8. / 18 / (2 * pairs),
                                                   5. / 18 / (2 * pairs)};
-    static constexpr double least_cosine = 0.8; // a patch does not run over an edge sharper than 37 degrees
-
     struct Place {
         int face = -1;
         Reference x;
@@ -145,7 +146,7 @@ private:
             return -1;
         const FaceNodes<degree> nodes = surface_.template face<degree>(next, positions_);
         const Point normal = face_normal<degree>(nodes, face_frame<degree>(nodes, Reference::Zero()));
-        return normal.dot(normal_) >= least_cosine ? next : -1;
+        return normal.dot(normal_) >= smooth_cosine ? next : -1;
     }
 
     void add_pair(const Point& offset, double weight) {

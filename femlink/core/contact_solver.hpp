@@ -21,6 +21,12 @@
 
 namespace grainfall::femlink {
 
+// Of a contact at some overlap.
+struct ShearSpring {
+    double stiffness;        // k_t, N/m
+    Eigen::Vector2d stretch; // e, m
+};
+
 template <class Relation>
 struct WallContact {
     Relation relation;
@@ -28,6 +34,10 @@ struct WallContact {
     Eigen::Vector2d free_shear = Eigen::Vector2d::Zero(); // e, m
     double shear_stiffness = 0;                           // k_t, N/m; 0: no shear force
     double friction = 0;                                  // mu
+
+    // N, largest shear force under this normal force.
+    double shear_limit(double normal) const { return friction * normal; }
+    ShearSpring shear_spring(double) const { return {shear_stiffness, free_shear}; }
 };
 
 struct SolverOptions {
@@ -75,9 +85,10 @@ inline Eigen::Vector2d capped_shear(const Eigen::Matrix2d& compliance, double sh
 }
 
 // `forces`: three per contact; the values found in it are where the iteration starts (those of the step
-// before).
-template <class Relation>
-SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<WallContact<Relation>>& contacts,
+// before). Contact: WallContact, or what has `relation`, `free_overlap`, `shear_limit` and `shear_spring` as
+// that does.
+template <class Contact>
+SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<Contact>& contacts,
                             Eigen::VectorXd& forces, const SolverOptions& options = {}) {
     const int count = static_cast<int>(contacts.size());
     if (forces.size() != 3 * count)
@@ -91,7 +102,7 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<WallC
     for (; report.sweeps < options.max_sweeps && !report.converged;) {
         double change = 0, largest = 0;
         for (int i = 0; i < count; ++i) {
-            const WallContact<Relation>& contact = contacts[i];
+            const Contact& contact = contacts[i];
             const int n = 3 * i;
             const double own = wall(n, n);
             const double overlap = contact.free_overlap - (yielded[n] - own * forces[n]);
@@ -102,13 +113,14 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<WallC
                 yielded += normal_change * wall.col(n);
             }
             const Eigen::Vector2d before = forces.segment<2>(n + 1);
-            const double limit = contact.friction * normal;
+            const double limit = contact.shear_limit(normal);
             Eigen::Vector2d shear = Eigen::Vector2d::Zero();
-            if (limit > 0 && contact.shear_stiffness > 0) {
+            if (limit > 0) {
+                const ShearSpring spring = contact.shear_spring(contact.free_overlap - yielded[n]);
                 const Eigen::Matrix2d own_shear = wall.block<2, 2>(n + 1, n + 1);
                 const Eigen::Vector2d stretch =
-                    contact.free_shear - (yielded.segment<2>(n + 1) - own_shear * before);
-                shear = capped_shear(own_shear, contact.shear_stiffness, stretch, limit);
+                    spring.stretch - (yielded.segment<2>(n + 1) - own_shear * before);
+                shear = capped_shear(own_shear, spring.stiffness, stretch, limit);
             }
             const Eigen::Vector2d shear_change = shear - before;
             if (shear_change[0] != 0 || shear_change[1] != 0) {

@@ -33,8 +33,13 @@ double in_series(const Relation& relation, double compliance, double free_overla
         return 0;
     double low = 0, high = free_overlap, overlap = free_overlap;
     double force = relation.force(overlap);
-    if (compliance <= 0)
+    if (compliance <= 0 || force == 0)
         return force;
+    while (force < 0 && overlap + compliance * force < free_overlap) { // a dashpot that pulls
+        high *= 2;
+        overlap = high;
+        force = relation.force(overlap);
+    }
     for (int i = 0; i < 80; ++i) {
         const double excess = overlap - free_overlap + compliance * force;
         if (std::abs(excess) <= 4e-16 * free_overlap)

@@ -19,8 +19,8 @@
 
 namespace grainfall::femlink {
 
-template <class Relation>
-double staggered_gain(const Eigen::MatrixXd& wall, const std::vector<WallContact<Relation>>& contacts) {
+template <class Contact>
+double staggered_gain(const Eigen::MatrixXd& wall, const std::vector<Contact>& contacts) {
     if (contacts.empty())
         return 0;
     Eigen::VectorXd root = Eigen::VectorXd::Zero(3 * contacts.size());
@@ -28,8 +28,10 @@ double staggered_gain(const Eigen::MatrixXd& wall, const std::vector<WallContact
         if (!(contacts[i].free_overlap > 0))
             continue;
         root[3 * i] = std::sqrt(contacts[i].relation.stiffness(contacts[i].free_overlap));
-        if (contacts[i].friction > 0)
-            root.segment<2>(3 * i + 1).setConstant(std::sqrt(contacts[i].shear_stiffness));
+        if (contacts[i].shear_limit(1) > 0) {
+            const ShearSpring spring = contacts[i].shear_spring(contacts[i].free_overlap);
+            root.segment<2>(3 * i + 1).setConstant(std::sqrt(spring.stiffness));
+        }
     }
     // Power iteration: G is positive semi-definite and its largest mode, all contacts together, stands apart.
     Eigen::VectorXd mode = root.array() + root.maxCoeff();

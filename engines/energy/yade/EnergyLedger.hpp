@@ -73,7 +73,7 @@ public:
         .add_property("relativeResidual", &EnergyLedger::relativeResidual,
             "Magnitude of the residual over energyInPlay [-]; 0 while nothing has moved.")
         .def("table", &EnergyLedger::table,
-            "All terms by name [J]: stored (kineticTranslation, kineticRotation, potential, elasticNormal, elasticShear, bridge), dissipated since the "
+            "All terms by name [J]: stored (kineticTranslation, kineticRotation, potential, elasticNormal, elasticShear, bridge, farField: deformable walls), dissipated since the "
             "start or since the contact law began to book (friction, viscous, rescaling, bridgeRupture, numericalDamping), supplied (imposedMotion, "
             "permanentLoad, shearKinematics), and residual, relativeResidual, energyInPlay, largestResidual, stepChangeEnergy.")
         .def("update", &EnergyLedger::update,

@@ -27,6 +27,8 @@
 
 namespace yade {
 
+class FemFace;
+
 class FlatGrains {
 public:
     /// Spheres [begin, end), their contacts and near pairs: the work of one thread. A pair belongs to the
@@ -113,6 +115,7 @@ private:
         Body* body;
         Vector3r centre;
         Box room;
+        const FemFace* face; // of a deformable wall, else null
     };
     struct Moved {
         grainfall::flat::MotionBook book;
@@ -186,6 +189,7 @@ private:
     void publish_forces(Scene& scene);
     void settle_books();
     void load_planes(Scene& scene);
+    void prepare_walls(Scene& scene);
     grainfall::flat::Load take_load(size_t index);
     Moved move_domain(const Domain& domain, Scene& scene, const grainfall::flat::StepRules& rules,
                       bool all_with_yade);

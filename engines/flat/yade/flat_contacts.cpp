@@ -2,6 +2,7 @@
 // Contact forces of one step; contacts made and lost.
 #include <engines/flat/yade/FlatGrains.hpp>
 
+#include <femlink/yade/FemWall.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/InteractionContainer.hpp>
@@ -31,6 +32,7 @@ void FlatGrains::contacts(Scene& scene, const FlatTables::Pair& tables, bool pub
     load_planes(scene);
     for (const int i : touched_by_others_)
         publish_state(static_cast<size_t>(i));
+    prepare_walls(scene);
     general_.act(scene, functors);
     forces_published_ = contacts_published_ = publish;
     if (publish)
@@ -153,6 +155,18 @@ bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& mad
     made = imported(*contact);
     note_plane_radius(first, *contact);
     return true;
+}
+
+/// Deformable walls are solved for where their grains now are.
+void FlatGrains::prepare_walls(Scene& scene) {
+    for (FemWall* wall : fem_walls(scene)) {
+        vector<FacePair> pairs;
+        for (const GeneralPair& pair : general_.all())
+            if (dynamic_cast<const FemFace*>(pair.first->shape.get()) && is_flat(pair.second->id) &&
+                wall->has_face(*pair.first))
+                pairs.push_back({pair.contact, pair.first, pair.second});
+        wall->prepare(pairs, functors);
+    }
 }
 
 void FlatGrains::settle_books() {

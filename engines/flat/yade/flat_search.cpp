@@ -4,6 +4,9 @@
 
 #include <core/Aabb.hpp>
 #include <core/State.hpp>
+#include <femlink/yade/FemFace.hpp>
+
+#include <algorithm>
 
 namespace yade {
 
@@ -218,8 +221,8 @@ FlatGrains::Box FlatGrains::room_of(const Body& body, Reach reach) {
 bool FlatGrains::others_have_moved() {
     for (const Roamer& roamer : roamers_) {
         const State& state = *roamer.body->state;
-        const bool rests =
-            state.vel == Vector3r::Zero() && state.angVel == Vector3r::Zero() && state.pos == roamer.centre;
+        const bool rests = state.vel == Vector3r::Zero() && state.angVel == Vector3r::Zero() &&
+                           state.pos == roamer.centre && !(roamer.face && roamer.face->has_left_bound());
         if (!rests && !roamer.room.holds(box_of(*roamer.body)))
             return true;
     }
@@ -231,10 +234,15 @@ void FlatGrains::list_general(const gf::CellTable& cells, Reach reach) {
     roamers_.clear();
     for (Body* body : others_)
         if (body->shape && body->isBounded())
-            roamers_.push_back({body, body->state->pos, room_of(*body, reach)});
+            roamers_.push_back({body, body->state->pos, room_of(*body, reach),
+                                dynamic_cast<const FemFace*>(body->shape.get())});
+    // Faces of deformable walls, which may be many, do not meet each other: they stand last.
+    const auto faces = std::stable_partition(roamers_.begin(), roamers_.end(),
+                                             [](const Roamer& roamer) { return !roamer.face; });
+    const auto first_face = static_cast<size_t>(faces - roamers_.begin());
     for (size_t a = 0; a < roamers_.size(); ++a) {
         Body& body = *roamers_[a].body;
-        for (size_t b = a + 1; b < roamers_.size(); ++b)
+        for (size_t b = a + 1; a < first_face && b < roamers_.size(); ++b)
             if (roamers_[a].room.meets(roamers_[b].room))
                 general_.add(body, *roamers_[b].body, functors);
         if (index_of_[static_cast<size_t>(body.id)] < 0) // else a plane, whose pairs with spheres are flat

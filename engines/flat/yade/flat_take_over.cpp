@@ -2,6 +2,7 @@
 // YADE's objects -> packed arrays.
 #include <engines/flat/yade/FlatGrains.hpp>
 
+#include <femlink/yade/FemFace.hpp>
 #include <laws/yade/GrainMat.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
@@ -30,6 +31,11 @@ bool is_flat_plane(const Body& body) {
     return is_grain(body) && body.shape && body.shape->getClassName() == "Wall";
 }
 
+/// Faces of a deformable wall meet spheres only, so many of them do no harm.
+bool is_face(const Body& body) {
+    return dynamic_cast<const FemFace*>(body.shape.get());
+}
+
 } // namespace
 
 std::string FlatGrains::obstacle(const Scene& scene) const {
@@ -41,7 +47,7 @@ std::string FlatGrains::obstacle(const Scene& scene) const {
             continue;
         if (!body->isStandalone())
             return "there are clumps";
-        if (!is_flat_sphere(*body) && !is_flat_plane(*body))
+        if (!is_flat_sphere(*body) && !is_flat_plane(*body) && !is_face(*body))
             ++others;
     }
     if (others > 500)

@@ -30,7 +30,7 @@ void GeneralPairs::adopt(const shared_ptr<Interaction>& contact, Scene& scene, F
     if (!found.functor || found.swapped)
         return; // what made it is gone: it stays as it is
     places_[key(first, second)] = pairs_.size();
-    pairs_.push_back({contact, &first, &second, found.functor});
+    pairs_.push_back({contact, &first, &second, found.functor, true});
 }
 
 void GeneralPairs::forget_those_apart() {
@@ -60,12 +60,9 @@ void GeneralPairs::add(Body& one, Body& other, FunctorLists& functors) {
 
 void GeneralPairs::step(GeneralPair& pair, Scene& scene, FunctorLists& functors) {
     const shared_ptr<Interaction>& contact = pair.contact;
-    const bool was_real = contact->isReal();
-    pair.change = GeneralPair::Change::none;
     if (!pair.geometry->go(pair.first->shape, pair.second->shape, *pair.first->state, *pair.second->state,
                            Vector3r::Zero(), false, contact)) {
-        if (was_real)
-            pair.change = GeneralPair::Change::lost;
+        contact->reset();
         return;
     }
     if (!contact->phys) {
@@ -74,38 +71,34 @@ void GeneralPairs::step(GeneralPair& pair, Scene& scene, FunctorLists& functors)
         contact->functorCache.phys = physics;
         physics->go(pair.first->material, pair.second->material, contact);
         contact->iterMadeReal = contact->iterLastSeen = scene.iter;
+    }
+    if (!contact->functorCache.constLaw) { // new, or adopted from a file
         contact->functorCache.constLaw = functors.law(*contact->geom, *contact->phys);
         if (!contact->functorCache.constLaw)
             throw std::runtime_error("no Law2 functor for " + contact->geom->getClassName() + " and " +
                                      contact->phys->getClassName());
-        pair.change = GeneralPair::Change::made;
-    } else if (!contact->functorCache.constLaw) { // adopted from a file
-        contact->functorCache.constLaw = functors.law(*contact->geom, *contact->phys);
     }
-    if (contact->functorCache.constLaw->go(contact->geom, contact->phys, contact.get()))
-        return;
-    if (was_real) {
-        pair.change = GeneralPair::Change::lost;
-    } else { // touched and let go in one step: it never was in the scene
-        pair.change = GeneralPair::Change::none;
+    if (!contact->functorCache.constLaw->go(contact->geom, contact->phys, contact.get()))
         contact->reset();
-    }
 }
 
 void GeneralPairs::act(Scene& scene, FunctorLists& functors) {
     for (GeneralPair& pair : pairs_)
         step(pair, scene, functors);
     InteractionContainer& container = *scene.interactions;
+    // Those that ended first: a history that changed face is in the scene once.
     for (GeneralPair& pair : pairs_) {
         Interaction& contact = *pair.contact;
-        if (pair.change == GeneralPair::Change::made) {
-            container.insert(pair.contact);
-        } else if (pair.change == GeneralPair::Change::lost) {
-            container.erase(contact.getId1(), contact.getId2(), contact.linIx);
-            contact.reset();
-        } else if (contact.geom && !contact.phys) {
-            contact.reset();
-        }
+        if (!pair.in_scene || contact.isReal())
+            continue;
+        container.erase(contact.getId1(), contact.getId2(), contact.linIx);
+        pair.in_scene = false;
+    }
+    for (GeneralPair& pair : pairs_) {
+        if (pair.in_scene || !pair.contact->isReal())
+            continue;
+        container.insert(pair.contact);
+        pair.in_scene = true;
     }
 }
 

@@ -18,7 +18,7 @@ struct GeneralPair {
     Body* first;
     Body* second;
     shared_ptr<IGeomFunctor> geometry;
-    enum class Change { none, made, lost } change = Change::none;
+    bool in_scene = false; // is the contact in the scene's container?
 };
 
 class GeneralPairs {

@@ -31,6 +31,7 @@ from grainfall.femlink._wall import (
     load_wall,
 )
 from grainfall.femlink.cache import cached_wall
+from grainfall.femlink.scene import add_wall, functors
 
 __all__ = [
     "ClosestPoint",
@@ -41,12 +42,14 @@ __all__ = [
     "Surface",
     "Wall",
     "WallModel",
+    "add_wall",
     "box",
     "cached_wall",
     "closest_point",
     "contact_axes",
     "container",
     "disc_compliance",
+    "functors",
     "half_space_block",
     "load_wall",
     "read_gmsh",

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A quasi-static wall through the steps of a run: contacts that come, move and go, and the wall's
+// displacement under them.
+//
+// With x(X) the surface as it lies when no contact loads it, n the direction of the push and w what the
+// contact sees of the wall's displacement (compliance.hpp), a sphere at c with radius R overlaps by
+//
+//   d = R - n . (c - x(X)) + n . w
+//
+// which is linear in w: that overlap is solved for, and the same number is handed to the contact law. X and n
+// are those of the point nearest to c on the surface as the last step left it.
+//
+// A contact's load stays where it is until the contact has moved by `drift` of the patch's radius, or its
+// normal has turned by more than `turn`: moving it means computing a row of G anew.
+#pragma once
+
+#include <femlink/core/compliance.hpp>
+#include <femlink/core/law_contact.hpp>
+#include <femlink/core/staggered.hpp>
+#include <femlink/core/surface_contacts.hpp>
+#include <femlink/core/wall_model.hpp>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace grainfall::femlink {
+
+// One contact of a sphere with the surface.
+struct WallTouch {
+    int sphere = -1; // a number that the caller knows the sphere by; -1: this place is empty
+    SurfaceContact place;
+    ContactSite site;                                        // where the load goes
+    SurfaceContact anchor;                                   // that `site` was made for
+    double free_overlap = 0;                                 // m, if no contact loaded the wall
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();         // N on the sphere, in the site's axes
+    Point seen = Point::Zero(), seen_before = Point::Zero(); // m, of the wall, now and a step before
+
+    bool is_empty() const { return sphere < 0; }
+    double overlap() const { return free_overlap + seen.dot(site.axes.col(0)); }
+};
+
+class QuasiStaticWall {
+public:
+    static constexpr double turn = 1e-4; // rad
+
+    explicit QuasiStaticWall(WallModel model)
+        : model_(std::make_unique<WallModel>(std::move(model))),
+          unloaded_(model_->surface.nodes + model_->preload),
+          displacement_(Positions::Zero(3, model_->surface.node_count())), nodal_forces_(displacement_),
+          loaded_(model_->surface, model_->compliance) {}
+
+    const WallModel& model() const { return *model_; }
+    const Surface& surface() const { return model_->surface; }
+    // m, nodes as they lie under gravity and surface loads.
+    const Positions& unloaded() const { return unloaded_; }
+    // m, what contacts add to that.
+    const Positions& displacement() const { return displacement_; }
+    Positions positions() const { return unloaded_ + displacement_; }
+    // N, of the contacts on the wall.
+    const Positions& nodal_forces() const { return nodal_forces_; }
+    // J, stored by the contacts.
+    double strain_energy() const { return 0.5 * nodal_forces_.cwiseProduct(displacement_).sum(); }
+
+    void put(const Positions& displacement, const Positions& nodal_forces) {
+        displacement_ = displacement;
+        nodal_forces_ = nodal_forces;
+    }
+
+    // Moves the load to where the contact is, if it has left its place by more than `drift` of the patch's
+    // radius; true if it did.
+    bool follow(WallTouch& touch, double patch, double drift) const {
+        const double allowed = drift * patch * face_size(surface(), unloaded_, touch.place.face);
+        const bool stays = touch.anchor.face == touch.place.face &&
+                           (unloaded_point(touch.anchor) - unloaded_point(touch.place)).norm() <= allowed &&
+                           (touch.anchor.normal - touch.place.normal).norm() <= turn;
+        if (stays)
+            return false;
+        const Point force = touch.site.axes * touch.force;
+        touch.anchor = touch.place;
+        put_site(touch, patch);
+        touch.force = touch.site.axes.transpose() * force;
+        return true;
+    }
+
+    // Makes the site that belongs to the touch's anchor.
+    void put_site(WallTouch& touch, double patch) const {
+        const double radius = patch * face_size(surface(), unloaded_, touch.anchor.face);
+        touch.site = {contact_patch(surface(), unloaded_, touch.anchor.face, touch.anchor.at, radius),
+                      contact_axes(touch.anchor.normal)};
+    }
+
+    // m, overlap with the unloaded wall of a sphere whose contact is `place`.
+    double free_overlap(const SurfaceContact& place, const Point& centre, double radius) const {
+        return radius - place.normal.dot(centre - unloaded_point(place));
+    }
+
+    // Solves all contacts; `contacts` in the order of `touches`, empty places included.
+    SolverReport solve(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts,
+                       const SolverOptions& options) {
+        std::vector<ContactSite> sites;
+        Eigen::VectorXd forces(3 * touches.size());
+        sites.reserve(touches.size());
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            sites.push_back(touches[i].site);
+            forces.segment<3>(3 * i) = touches[i].force;
+        }
+        const SolverReport report = solve_contacts(loaded_.condense(sites), contacts, forces, options);
+        bear(touches, sites, forces);
+        return report;
+    }
+
+    // The staggered exchange: the wall under the forces that the law found in the last step, which the
+    // touches hold. Returns its gain; from 1 on it diverges.
+    double exchange(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts) {
+        std::vector<ContactSite> sites;
+        Eigen::VectorXd forces(3 * touches.size());
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            sites.push_back(touches[i].site);
+            forces.segment<3>(3 * i) = touches[i].force;
+        }
+        const double gain = staggered_gain(loaded_.condense(sites), contacts);
+        bear(touches, sites, forces);
+        return gain;
+    }
+
+    // What the contacts see of the wall as it lies.
+    Point seen(const ContactSite& site) const { return site.axes * seen_displacement(site, displacement_); }
+
+private:
+    Point unloaded_point(const SurfaceContact& place) const {
+        const Surface& s = surface();
+        return s.degree == 1 ? face_frame<1>(s.face<1>(place.face, unloaded_), place.at).y
+                             : face_frame<2>(s.face<2>(place.face, unloaded_), place.at).y;
+    }
+
+    void bear(std::vector<WallTouch>& touches, const std::vector<ContactSite>& sites,
+              const Eigen::VectorXd& forces) {
+        nodal_forces_ = femlink::nodal_forces(surface(), sites, forces);
+        displacement_ = displacements(surface(), model_->compliance, nodal_forces_);
+        for (std::size_t i = 0; i < touches.size(); ++i)
+            touches[i].force = forces.segment<3>(3 * i);
+    }
+
+    std::unique_ptr<WallModel> model_; // at a fixed address: loaded_ refers to it
+    Positions unloaded_, displacement_, nodal_forces_;
+    LoadedCompliance loaded_;
+};
+
+} // namespace grainfall::femlink

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The deformable wall of a scene: owns the surface, solves its contacts and moves its faces.
+//
+// Before the contacts of a step are computed:
+//
+//   pairs (face, sphere) that are near      from the collider, or from the flat path's search
+//   -> contacts, each owned by one face     femlink/core/surface_contacts.hpp
+//   -> shear history that has changed face  moved from interaction to interaction
+//   -> forces and displacement              femlink/core/wall_contacts.hpp
+//   -> FaceTouch on each face               read by Ig2_FemFace_Sphere_ScGeom, then the contact law acts
+#pragma once
+
+#include <lib/base/Math.hpp>
+#include <core/GlobalEngine.hpp>
+#include <core/Interaction.hpp>
+
+#include <engines/flat/yade/functor_lists.hpp>
+#include <femlink/core/wall_contacts.hpp>
+#include <femlink/yade/FemFace.hpp>
+#include <laws/yade/attribute_checks.hpp>
+
+#include <map>
+#include <memory>
+
+namespace yade {
+
+/// A face and a sphere that are near each other.
+struct FacePair {
+    shared_ptr<Interaction> contact; // body 1: the face
+    Body* face;
+    Body* sphere;
+};
+
+class FemWall : public GlobalEngine {
+public:
+    virtual ~FemWall() = default;
+
+    /// On YADE's own interaction loop; GrainInteractionLoop calls `prepare` itself.
+    void action() override;
+    void validate() const;
+    void postLoad(FemWall&);
+    void preSave(FemWall&);
+
+    /// Solves the wall for this step. `pairs`: all that are near one of this wall's faces. Contacts that
+    /// change face take their interactions' history along.
+    void prepare(vector<FacePair>& pairs, FunctorLists& lists);
+    /// Interactions of this wall's faces in the scene, as pairs.
+    vector<FacePair> pairs_in_scene(FunctorLists& lists);
+    /// From GrainInteractionLoop where it runs as InteractionLoop.
+    void prepare_in_scene();
+    bool has_face(const Body& body);
+
+    Real stored_energy() const;
+    /// J that moving the outer boundary has supplied.
+    Real supplied_energy() const { return boundaryWork; }
+    boost::python::list node_positions();
+    boost::python::list node_displacements();
+    boost::python::list node_forces();
+    boost::python::list face_nodes();
+    boost::python::list touches_now();
+
+    // clang-format off
+    YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(FemWall, GlobalEngine,
+        "Deformable wall: an elastic continuum (MR-2629, section 3.4) that grains touch at its surface, condensed to that surface and solved together with "
+        "its contacts before each step. Stands between the collider and the :yref:`InteractionLoop`, whose functors must include "
+        ":yref:`Ig2_FemFace_Sphere_ScGeom` and :yref:`Law2_FemGeom_GrainPhys_HertzMindlin`, the collider's :yref:`Bo1_FemFace_Aabb`. Made by "
+        "grainfall.femlink.add_wall, which makes the faces too. Small displacements, no inertia.",
+        ((string, file, "", Attr::readonly, "Wall file (grainfall.femlink.WallModel.save) with surface and compliance."))
+        ((string, key, "", Attr::readonly, "Key of the wall in the file: of mesh, materials and loads."))
+        ((vector<int>, faces, , Attr::readonly, "Ids of the bodies that are its faces, in their order in the file."))
+        ((string, coupling, "implicit", , "'implicit': forces and displacement of a step are solved for together, stable for any stiffness; 'staggered': the wall takes the forces of the step before, as "
+          "in the report; refused where that must diverge."))
+        ((int, interval, 1, , "Solve in every n-th step [-], >= 1; the wall stands still in between."))
+        ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
+        ((Real, drift, 0.005, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
+        ((Real, tolerance, 1e-8, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
+        ((int, maxSweeps, 2000, , "Sweeps after which the solver gives up [-], >= 1; the run then stops with an error."))
+        ((Vector3r, velocity, Vector3r::Zero(), , "Velocity [m/s] of the outer boundary, and with it of the whole wall as a rigid body."))
+        ((Vector3r, shift, Vector3r::Zero(), Attr::readonly, "How far the outer boundary has moved [m]."))
+        ((int, contacts, 0, Attr::readonly, "Contacts in the last step."))
+        ((int, sweeps, 0, Attr::readonly, "Sweeps of the solver in the last step that solved."))
+        ((Real, disagreement, 0, Attr::readonly, "Largest difference in the last step but one between the force that the wall was solved for and that of the law, over the largest force [-]."))
+        ((Real, boundaryWork, 0, Attr::readonly, "Work [J] that moving the outer boundary has supplied."))
+        ((Vector3r, force, Vector3r::Zero(), Attr::readonly, "Sum of the contact forces on the wall [N] in the last step that solved."))
+        ((long, preparedStep, -1, Attr::hidden, "Last step that contacts were looked for in."))
+        ((long, solvedStep, -1, Attr::hidden, "Last step that the wall was solved for."))
+        ((vector<Vector3r>, savedDisplacement, , Attr::hidden, "Of the nodes, at the last step."))
+        ((vector<Vector3r>, savedForces, , Attr::hidden, "On the nodes, at the last step."))
+        ((vector<Vector3i>, savedTouches, , Attr::hidden, "Sphere, face of the contact and face of its anchor; -1 for an empty place."))
+        ((vector<vector<Real>>, savedNumbers, , Attr::hidden, "Of each contact: anchor (2), its normal, force, what it sees of the wall, velocity of the wall (3 each)."))
+        ,
+        ,
+        .def(CheckedAttributes<FemWall>().add("coupling", &FemWall::coupling).add("interval", &FemWall::interval)
+            .add("patch", &FemWall::patch).add("drift", &FemWall::drift).add("tolerance", &FemWall::tolerance)
+            .add("maxSweeps", &FemWall::maxSweeps).add("velocity", &FemWall::velocity))
+        .add_property("strainEnergy", &FemWall::stored_energy, "Strain energy that the contacts have put into the wall [J].")
+        .def("nodePositions", &FemWall::node_positions, "Nodes of the surface as they now lie [m].")
+        .def("nodeDisplacements", &FemWall::node_displacements, "What the contacts add to the nodes' places [m].")
+        .def("nodeForces", &FemWall::node_forces, "Forces of the contacts on the nodes [N].")
+        .def("faceNodes", &FemWall::face_nodes, "Nodes of each face.")
+        .def("touches", &FemWall::touches_now,
+             "Contacts of the last step: dicts with sphere (body id), face (body id), reference (on the face, -1 to 1), point [m], normal, overlap [m], force on the sphere [N], "
+             "displacement of the wall there [m].")
+    );
+    // clang-format on
+    DECLARE_LOGGER;
+
+private:
+    /// What YADE has of touches_, same place.
+    struct Partner {
+        shared_ptr<Interaction> contact;
+        Body* face = nullptr;
+        Body* sphere = nullptr;
+        Vector3r velocity = Vector3r::Zero(); // m/s, of the wall at the contact, without that of its boundary
+        bool found = false;                   // in this step
+    };
+
+    std::unique_ptr<grainfall::femlink::QuasiStaticWall> wall_;
+    vector<FemFace*> shapes_;
+    std::map<Body::id_t, int> face_of_body_;
+    vector<grainfall::femlink::WallTouch> touches_;
+    vector<Partner> partners_;
+    grainfall::femlink::Positions positions_; // of the surface's nodes, without `shift`
+    Real largest_displacement_ = 0;
+    std::map<Body::id_t, vector<size_t>> places_; // in touches_, by sphere
+    bool restored_ = false;                       // interactions not known yet
+    FunctorLists lists_;                          // on YADE's own loop
+    const Engine* listed_loop_ = nullptr;
+    const FunctorLists* checked_lists_ = nullptr;
+
+    void set_up();
+    void restore();
+    shared_ptr<Engine> interaction_loop() const;
+    void check_functors(FunctorLists& lists) const;
+    void compare_with_law();
+    void find_touches(vector<FacePair>& pairs);
+    void find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>::iterator end);
+    size_t known_touch(const FacePair& pair) const;
+    size_t new_touch();
+    void forget_touch(size_t place);
+    void follow(size_t place, const grainfall::femlink::SurfaceContact& found, const FacePair& pair);
+    void make_new_contacts_real(FunctorLists& lists);
+    grainfall::femlink::LawContact law_contact(size_t place) const;
+    void solve();
+    void exchange(const vector<grainfall::femlink::LawContact>& laws);
+    void write_faces();
+    FaceTouch face_touch(size_t place) const;
+    Real radius_of(size_t place) const;
+};
+REGISTER_SERIALIZABLE(FemWall);
+
+/// Walls that act in a scene.
+vector<FemWall*> fem_walls(const Scene& scene);
+
+} // namespace yade

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A deformable wall in a YADE scene."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from grainfall.femlink import _wall
+from grainfall.femlink.cache import wall_path
+
+
+def add_wall(
+    wall: _wall.WallModel | Path | str,
+    material: Any,
+    cache: Path | str = "",
+    color: tuple[float, float, float] = (0.6, 0.5, 0.4),
+    **attributes: Any,
+) -> Any:
+    """Put a wall's faces into the scene and make the engine that moves them.
+
+    Parameters
+    ----------
+    wall : WallModel, or path of a wall file
+        A model that is in no file yet is written into the folder of kept walls, because the scene refers to the file.
+    material : Material, or its label or id
+        Of the faces, as contacts with grains see it: stiff (1000 times a grain's modulus) where the wall's own
+        compliance is to supply the indentation, the wall's own moduli where faces are much larger than contacts.
+    cache : path
+        Folder of kept walls; default: ~/.cache/grainfall/walls.
+    color
+        Of the faces.
+    attributes
+        Of :yref:`FemWall`.
+
+    Returns
+    -------
+    FemWall
+        To be placed in ``O.engines`` between the collider and the interaction loop.
+
+    Raises
+    ------
+    RuntimeError
+        If the file cannot be read.
+    ValueError
+        If the model has no key.
+    """
+    import yade.wrapper as w
+
+    model, file = _model_and_file(wall, cache)
+    scene = w.Omega()
+    material = _in_scene(material)
+    faces = []
+    nodes = model.surface.nodes + model.preload
+    for index, corners in enumerate(model.surface.faces):
+        shape = w.FemFace(nodes=[tuple(nodes[n]) for n in corners], color=color, wire=True)
+        body = w.Body(material=material)
+        body.shape = shape
+        body.state.pos = tuple(nodes[corners].mean(axis=0))
+        body.dynamic = False
+        body.aspherical = False
+        faces.append(scene.bodies.append(body))
+    return w.FemWall(file=str(file), faces=faces, **attributes)
+
+
+def functors() -> tuple[list[Any], list[Any], list[Any]]:
+    """What a wall needs of the collider (bounding) and of the interaction loop (geometry, law)."""
+    import yade.wrapper as w
+
+    return (
+        [w.Bo1_FemFace_Aabb()],
+        [w.Ig2_FemFace_Sphere_ScGeom()],
+        [w.Law2_FemGeom_GrainPhys_HertzMindlin()],
+    )
+
+
+def _model_and_file(
+    wall: _wall.WallModel | Path | str, cache: Path | str
+) -> tuple[_wall.WallModel, Path]:
+    if not isinstance(wall, _wall.WallModel):
+        return _wall.load_wall(str(wall)), Path(wall).resolve()
+    if not wall.key:
+        raise ValueError(
+            "wall.key = '': must be that of a model made by Continuum.condense or cached_wall; write another one "
+            "with WallModel.save and pass the path"
+        )
+    path = wall_path(wall.key, cache)
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        wall.save(str(path))
+    return wall, path
+
+
+def _in_scene(material: Any) -> Any:
+    """The material itself, known to the scene."""
+    import yade.wrapper as w
+
+    materials = w.Omega().materials
+    if isinstance(material, (str, int)):
+        return materials[material]
+    if material.id < 0:
+        materials.append(material)
+    return material
