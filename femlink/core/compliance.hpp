@@ -140,6 +140,22 @@ private:
     std::vector<ContactSite> kept_; // that matrix_ is of
 };
 
+// G_ii of one contact alone, m/N.
+inline Eigen::Matrix3d own_compliance(const Surface& surface, const Eigen::MatrixXd& compliance,
+                                      const ContactSite& site) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (std::size_t a = 0; a < site.patch.nodes.size(); ++a) {
+        const int row = surface.loose[site.patch.nodes[a]];
+        for (std::size_t b = 0; row != Surface::fixed && b < site.patch.nodes.size(); ++b) {
+            const int column = surface.loose[site.patch.nodes[b]];
+            if (column != Surface::fixed)
+                sum += site.patch.block(a).transpose() * compliance.block<3, 3>(3 * row, 3 * column) *
+                       site.patch.block(b);
+        }
+    }
+    return site.axes.transpose() * sum * site.axes;
+}
+
 // Forces on the surface's nodes, N, one column a node, from the forces q on the grains.
 inline Positions nodal_forces(const Surface& surface, const std::vector<ContactSite>& sites,
                               const Eigen::VectorXd& forces) {

@@ -36,6 +36,8 @@ struct WallTouch {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();         // N on the sphere, in the site's axes
     Point seen = Point::Zero(), seen_before = Point::Zero(); // m, of the wall, now and a step before
 
+    Eigen::Matrix3d own = Eigen::Matrix3d::Zero(); // m/N, compliance of the wall at the site, in its axes
+
     bool is_empty() const { return sphere < 0; }
     double overlap() const { return free_overlap + seen.dot(site.axes.col(0)); }
 };
@@ -88,6 +90,7 @@ public:
         const double radius = patch * face_size(surface(), unloaded_, touch.anchor.face);
         touch.site = {contact_patch(surface(), unloaded_, touch.anchor.face, touch.anchor.at, radius),
                       contact_axes(touch.anchor.normal)};
+        touch.own = own_compliance(surface(), model_->compliance, touch.site);
     }
 
     // m, overlap with the unloaded wall of a sphere whose contact is `place`.
@@ -108,6 +111,17 @@ public:
         const SolverReport report = solve_contacts(loaded_.condense(sites), contacts, forces, options);
         bear(touches, sites, forces);
         return report;
+    }
+
+    // Between two solutions for all: this contact alone, the displacement under the others' loads held.
+    void solve_alone(WallTouch& touch, LawContact contact, const SolverOptions& options) const {
+        const Eigen::Vector3d others = touch.site.axes.transpose() * touch.seen + touch.own * touch.force;
+        contact.free_overlap += others[0];
+        contact.shift += others.tail<2>();
+        Eigen::VectorXd force = touch.force;
+        solve_contacts<LawContact>(touch.own, {contact}, force, options);
+        touch.force = force;
+        touch.seen = touch.site.axes * (others - touch.own * touch.force);
     }
 
     // The staggered exchange: the wall under the forces that the law found in the last step, which the

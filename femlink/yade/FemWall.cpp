@@ -138,10 +138,6 @@ bool FemWall::has_face(const Body& body) {
     return face_of_body_.count(body.id) > 0;
 }
 
-Real FemWall::stored_energy() const {
-    return wall_ ? wall_->strain_energy() : 0;
-}
-
 shared_ptr<Engine> FemWall::interaction_loop() const {
     bool passed_this = false;
     for (const auto& engine : scene->engines) {
@@ -254,13 +250,7 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
         touch.seen_before = touch.seen;
     find_touches(pairs);
     make_new_contacts_real(lists);
-    const bool due = solvedStep < 0 || scene->iter - solvedStep >= interval;
-    if (due)
-        solve();
-    else
-        for (fl::WallTouch& touch : touches_)
-            if (!touch.is_empty())
-                touch.seen = wall_->seen(touch.site);
+    solve(solvedStep < 0 || scene->iter - solvedStep >= interval);
     boundaryWork -= 0.5 * scene->dt * velocity.dot(force + force_before);
     preparedStep = scene->iter;
     write_faces();
@@ -268,7 +258,7 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
 
 /// Before the forces of the last step are overwritten.
 void FemWall::compare_with_law() {
-    if (solvedStep != preparedStep || coupling != "implicit")
+    if (coupling != "implicit")
         return;
     Real largest = 0, difference = 0;
     for (size_t i = 0; i < touches_.size(); ++i) {
@@ -354,7 +344,7 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     for (auto pair = begin; pair != end; ++pair) {
         const int face = face_of_body_.at(pair->face->id);
         near.push_back(face);
-        if (!pair->contact->isReal())
+        if (known_touch(*pair) == nowhere && !pair->contact->isReal())
             continue;
         held.push_back(face);
         const auto* phys = dynamic_cast<const GrainPhys*>(pair->contact->phys.get());
@@ -376,7 +366,11 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     for (size_t k = 0; k < found.size(); ++k) { // where they were
         const auto pair = pair_of(found[k].face);
         const size_t place = known_touch(*pair);
-        if (place == nowhere || !pair->contact->isReal())
+        if (place == nowhere)
+            continue;
+        // One that has parted from the pressed-in wall meets it again while it is inside the unloaded one.
+        const bool inside = wall_->free_overlap(found[k], centre, radius) > 0;
+        if (!pair->contact->isReal() && !inside)
             continue;
         follow(place, found[k], *pair);
         placed[k] = 1;
@@ -384,17 +378,11 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     for (size_t k = 0; k < found.size(); ++k) { // from another face
         for (const size_t i : places_[sphere.id]) {
             Partner& old = partners_[i];
-            if (placed[k] || old.found || !old.contact || !old.contact->isReal() ||
+            if (placed[k] || old.found || !old.contact ||
                 touches_[i].anchor.normal.dot(found[k].normal) < fl::smooth_cosine)
                 continue;
             const auto pair = pair_of(found[k].face);
-            Interaction &from = *old.contact, &to = *pair->contact;
-            to.geom = from.geom;
-            to.phys = from.phys;
-            to.functorCache = from.functorCache;
-            to.iterMadeReal = from.iterMadeReal;
-            to.iterLastSeen = scene->iter;
-            from.reset();
+            carry(*old.contact, *pair->contact);
             follow(i, found[k], *pair);
             placed[k] = 1;
         }
@@ -407,6 +395,18 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         follow(place, found[k], *pair_of(found[k].face));
         touches_[place].seen = touches_[place].seen_before = wall_->seen(touches_[place].site);
     }
+}
+
+/// A contact's history goes with it to the next face.
+void FemWall::carry(Interaction& from, Interaction& to) const {
+    if (!from.isReal())
+        return;
+    to.geom = from.geom;
+    to.phys = from.phys;
+    to.functorCache = from.functorCache;
+    to.iterMadeReal = from.iterMadeReal;
+    to.iterLastSeen = scene->iter;
+    from.reset();
 }
 
 void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePair& pair) {
@@ -422,7 +422,8 @@ void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePa
     touch.free_overlap = wall_->free_overlap(found, pair.sphere->state->pos - shift, radius_of(place));
 }
 
-/// Their stiffness is needed before the loop would have made them.
+/// Their stiffness is needed before the loop would have made them. A touch may be no contact: one that has
+/// parted from the wall where that is pressed in.
 void FemWall::make_new_contacts_real(FunctorLists& lists) {
     for (size_t i = 0; i < touches_.size(); ++i) {
         if (touches_[i].is_empty() || partners_[i].contact->isReal())
@@ -452,15 +453,14 @@ fl::LawContact FemWall::law_contact(size_t place) const {
     const Matrix3r& axes = touch.site.axes;
     const Vector3r normal = axes.col(0);
     const State& state = *partner.sphere->state;
-    const Real period = scene->dt * static_cast<Real>(solvedStep < 0 ? 1 : scene->iter - solvedStep);
     const Vector3r moved =
         scene->dt * (state.vel - velocity - (radius_of(place) * state.angVel).cross(normal));
     const Vector3r shift_seen = -moved - touch.seen_before;
     out.free_overlap = touch.free_overlap;
     out.shift = {shift_seen.dot(axes.col(1)), shift_seen.dot(axes.col(2))};
-    out.relation.rate = 1 / period;
+    out.relation.rate = 1 / scene->dt;
     out.relation.idle_overlap =
-        touch.free_overlap + touch.seen_before.dot(normal) + period * (state.vel - velocity).dot(normal);
+        touch.free_overlap + touch.seen_before.dot(normal) + scene->dt * (state.vel - velocity).dot(normal);
     Vector3r shear = Vector3r::Zero();
     if (const auto* grain = dynamic_cast<const GrainPhys*>(partner.contact->phys.get())) {
         const auto* law = Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(*scene);
@@ -493,34 +493,46 @@ fl::LawContact FemWall::law_contact(size_t place) const {
     return out;
 }
 
-void FemWall::solve() {
+/// All contacts together, or, between two such solutions, each alone.
+void FemWall::solve(bool together) {
     vector<fl::LawContact> laws;
     for (size_t i = 0; i < touches_.size(); ++i)
         laws.push_back(law_contact(i));
-    if (coupling == "implicit") {
-        const fl::SolverReport report = wall_->solve(touches_, laws, {tolerance, maxSweeps});
-        sweeps = report.sweeps;
-        if (!report.converged)
-            throw std::runtime_error("FemWall: the contacts of step " + std::to_string(scene->iter) +
-                                     " did not converge in " + std::to_string(maxSweeps) +
-                                     " sweeps (last change " + std::to_string(report.change) +
-                                     " of the largest force): raise maxSweeps or tolerance");
-    } else {
-        exchange(laws);
+    const fl::SolverOptions options{tolerance, maxSweeps};
+    if (together) {
+        if (coupling == "implicit")
+            solve_together(laws, options);
+        else
+            exchange(laws);
+        solvedStep = scene->iter;
+        positions_ = wall_->positions();
+        largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
     }
-    const Real period = scene->dt * static_cast<Real>(solvedStep < 0 ? 1 : scene->iter - solvedStep);
     force = Vector3r::Zero();
+    storedEnergy = 0;
     for (size_t i = 0; i < touches_.size(); ++i) {
         fl::WallTouch& touch = touches_[i];
         if (touch.is_empty())
             continue;
-        touch.seen = wall_->seen(touch.site);
-        partners_[i].velocity = (touch.seen - touch.seen_before) / period;
-        force -= touch.site.axes * touch.force;
+        if (together)
+            touch.seen = wall_->seen(touch.site);
+        else if (coupling == "implicit")
+            wall_->solve_alone(touch, laws[i], options);
+        const Vector3r push = touch.site.axes * touch.force;
+        partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
+        force -= push;
+        storedEnergy -= 0.5 * push.dot(touch.seen);
     }
-    solvedStep = scene->iter;
-    positions_ = wall_->positions();
-    largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
+}
+
+void FemWall::solve_together(const vector<fl::LawContact>& laws, const fl::SolverOptions& options) {
+    const fl::SolverReport report = wall_->solve(touches_, laws, options);
+    sweeps = report.sweeps;
+    if (!report.converged)
+        throw std::runtime_error("FemWall: the contacts of step " + std::to_string(scene->iter) +
+                                 " did not converge in " + std::to_string(maxSweeps) +
+                                 " sweeps (last change " + std::to_string(report.change) +
+                                 " of the largest force): raise maxSweeps or tolerance");
 }
 
 /// The report's exchange: the law's forces of the last step displace the wall of this one.
@@ -569,7 +581,7 @@ void FemWall::write_faces() {
         moved |= shape.has_left_bound();
     }
     for (size_t i = 0; i < touches_.size(); ++i)
-        if (!touches_[i].is_empty())
+        if (!touches_[i].is_empty() && partners_[i].contact && partners_[i].contact->isReal())
             shapes_[static_cast<size_t>(touches_[i].place.face)]->touches.push_back(face_touch(i));
     if (moved)
         scene->doSort = true;

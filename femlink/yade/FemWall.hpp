@@ -50,7 +50,7 @@ public:
     void prepare_in_scene();
     bool has_face(const Body& body);
 
-    Real stored_energy() const;
+    Real stored_energy() const { return storedEnergy; }
     /// J that moving the outer boundary has supplied.
     Real supplied_energy() const { return boundaryWork; }
     boost::python::list node_positions();
@@ -70,7 +70,7 @@ public:
         ((vector<int>, faces, , Attr::readonly, "Ids of the bodies that are its faces, in their order in the file."))
         ((string, coupling, "implicit", , "'implicit': forces and displacement of a step are solved for together, stable for any stiffness; 'staggered': the wall takes the forces of the step before, as "
           "in the report; refused where that must diverge."))
-        ((int, interval, 1, , "Solve in every n-th step [-], >= 1; the wall stands still in between."))
+        ((int, interval, 1, , "Solve for all contacts together in every n-th step [-], >= 1. In between each contact is solved alone, what the others do to the wall there held."))
         ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
         ((Real, drift, 0.005, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
         ((Real, tolerance, 1e-8, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
@@ -81,7 +81,8 @@ public:
         ((int, sweeps, 0, Attr::readonly, "Sweeps of the solver in the last step that solved."))
         ((Real, disagreement, 0, Attr::readonly, "Largest difference in the last step but one between the force that the wall was solved for and that of the law, over the largest force [-]."))
         ((Real, boundaryWork, 0, Attr::readonly, "Work [J] that moving the outer boundary has supplied."))
-        ((Vector3r, force, Vector3r::Zero(), Attr::readonly, "Sum of the contact forces on the wall [N] in the last step that solved."))
+        ((Real, storedEnergy, 0, Attr::readonly, "Strain energy that the contacts have put into the wall [J]."))
+        ((Vector3r, force, Vector3r::Zero(), Attr::readonly, "Sum of the contact forces on the wall in the last step [N]."))
         ((long, preparedStep, -1, Attr::hidden, "Last step that contacts were looked for in."))
         ((long, solvedStep, -1, Attr::hidden, "Last step that the wall was solved for."))
         ((vector<Vector3r>, savedDisplacement, , Attr::hidden, "Of the nodes, at the last step."))
@@ -93,7 +94,6 @@ public:
         .def(CheckedAttributes<FemWall>().add("coupling", &FemWall::coupling).add("interval", &FemWall::interval)
             .add("patch", &FemWall::patch).add("drift", &FemWall::drift).add("tolerance", &FemWall::tolerance)
             .add("maxSweeps", &FemWall::maxSweeps).add("velocity", &FemWall::velocity))
-        .add_property("strainEnergy", &FemWall::stored_energy, "Strain energy that the contacts have put into the wall [J].")
         .def("nodePositions", &FemWall::node_positions, "Nodes of the surface as they now lie [m].")
         .def("nodeDisplacements", &FemWall::node_displacements, "What the contacts add to the nodes' places [m].")
         .def("nodeForces", &FemWall::node_forces, "Forces of the contacts on the nodes [N].")
@@ -141,7 +141,10 @@ private:
     void follow(size_t place, const grainfall::femlink::SurfaceContact& found, const FacePair& pair);
     void make_new_contacts_real(FunctorLists& lists);
     grainfall::femlink::LawContact law_contact(size_t place) const;
-    void solve();
+    void carry(Interaction& from, Interaction& to) const;
+    void solve(bool together);
+    void solve_together(const vector<grainfall::femlink::LawContact>& laws,
+                        const grainfall::femlink::SolverOptions& options);
     void exchange(const vector<grainfall::femlink::LawContact>& laws);
     void write_faces();
     FaceTouch face_touch(size_t place) const;
