@@ -10,6 +10,9 @@
 // which is linear in w: that overlap is solved for, and the same number is handed to the contact law. X and n
 // are those of the point nearest to c on the surface as the last step left it.
 //
+// A wall that grains were settled on (`settle_under`) lies where it is under their forces: of w, the datum,
+// what those forces do to the wall, is taken off.
+//
 // A contact's load stays where it is until the contact has moved by `drift` of the patch's radius, or its
 // normal has turned by more than `turn`: moving it means computing a row of G anew.
 #pragma once
@@ -50,7 +53,7 @@ public:
         : model_(std::make_unique<WallModel>(std::move(model))),
           unloaded_(model_->surface.nodes + model_->preload),
           displacement_(Positions::Zero(3, model_->surface.node_count())), nodal_forces_(displacement_),
-          loaded_(model_->surface, model_->compliance) {}
+          datum_(displacement_), loaded_(model_->surface, model_->compliance) {}
 
     const WallModel& model() const { return *model_; }
     const Surface& surface() const { return model_->surface; }
@@ -58,7 +61,17 @@ public:
     const Positions& unloaded() const { return unloaded_; }
     // m, what contacts add to that.
     const Positions& displacement() const { return displacement_; }
-    Positions positions() const { return unloaded_ + displacement_; }
+    Positions positions() const { return unloaded_ + displacement_ - datum_; }
+    // m, displacement of the nodes that counts as none.
+    const Positions& datum() const { return datum_; }
+    void put_datum(const Positions& datum) { datum_ = datum; }
+
+    // The wall is where it is under the forces that the touches now hold.
+    void settle_under(std::vector<WallTouch>& touches) {
+        auto [sites, forces] = loads(touches);
+        bear(touches, sites, forces);
+        datum_ = displacement_;
+    }
     // N, of the contacts on the wall.
     const Positions& nodal_forces() const { return nodal_forces_; }
     // J, stored by the contacts.
@@ -93,21 +106,16 @@ public:
         touch.own = own_compliance(surface(), model_->compliance, touch.site);
     }
 
-    // m, overlap with the unloaded wall of a sphere whose contact is `place`.
-    double free_overlap(const SurfaceContact& place, const Point& centre, double radius) const {
-        return radius - place.normal.dot(centre - unloaded_point(place));
+    // m, overlap with the unloaded wall of a sphere whose contact is `place`, its load at `site`.
+    double free_overlap(const SurfaceContact& place, const ContactSite& site, const Point& centre,
+                        double radius) const {
+        return radius - place.normal.dot(centre - unloaded_point(place)) - seen_displacement(site, datum_)[0];
     }
 
     // Solves all contacts; `contacts` in the order of `touches`, empty places included.
     SolverReport solve(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts,
                        const SolverOptions& options) {
-        std::vector<ContactSite> sites;
-        Eigen::VectorXd forces(3 * touches.size());
-        sites.reserve(touches.size());
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            sites.push_back(touches[i].site);
-            forces.segment<3>(3 * i) = touches[i].force;
-        }
+        auto [sites, forces] = loads(touches);
         const SolverReport report = solve_contacts(loaded_.condense(sites), contacts, forces, options);
         bear(touches, sites, forces);
         return report;
@@ -127,12 +135,7 @@ public:
     // The staggered exchange: the wall under the forces that the law found in the last step, which the
     // touches hold. Returns its gain; from 1 on it diverges.
     double exchange(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts) {
-        std::vector<ContactSite> sites;
-        Eigen::VectorXd forces(3 * touches.size());
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            sites.push_back(touches[i].site);
-            forces.segment<3>(3 * i) = touches[i].force;
-        }
+        const auto [sites, forces] = loads(touches);
         const double gain = staggered_gain(loaded_.condense(sites), contacts);
         bear(touches, sites, forces);
         return gain;
@@ -148,6 +151,17 @@ private:
                              : face_frame<2>(s.face<2>(place.face, unloaded_), place.at).y;
     }
 
+    static std::pair<std::vector<ContactSite>, Eigen::VectorXd> loads(const std::vector<WallTouch>& touches) {
+        std::vector<ContactSite> sites;
+        Eigen::VectorXd forces(3 * touches.size());
+        sites.reserve(touches.size());
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            sites.push_back(touches[i].site);
+            forces.segment<3>(3 * i) = touches[i].force;
+        }
+        return {std::move(sites), std::move(forces)};
+    }
+
     void bear(std::vector<WallTouch>& touches, const std::vector<ContactSite>& sites,
               const Eigen::VectorXd& forces) {
         nodal_forces_ = femlink::nodal_forces(surface(), sites, forces);
@@ -157,7 +171,7 @@ private:
     }
 
     std::unique_ptr<WallModel> model_; // at a fixed address: loaded_ refers to it
-    Positions unloaded_, displacement_, nodal_forces_;
+    Positions unloaded_, displacement_, nodal_forces_, datum_;
     LoadedCompliance loaded_;
 };
 

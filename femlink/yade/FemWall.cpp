@@ -86,6 +86,7 @@ void FemWall::restore() {
         return out;
     };
     wall_->put(columns(savedDisplacement), columns(savedForces));
+    wall_->put_datum(columns(datum));
     restored_ = true;
     for (size_t i = 0; i < savedTouches.size() && i < savedNumbers.size(); ++i) {
         fl::WallTouch touch;
@@ -369,7 +370,7 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         if (place == nowhere)
             continue;
         // One that has parted from the pressed-in wall meets it again while it is inside the unloaded one.
-        const bool inside = wall_->free_overlap(found[k], centre, radius) > 0;
+        const bool inside = wall_->free_overlap(found[k], touches_[place].site, centre, radius) > 0;
         if (!pair->contact->isReal() && !inside)
             continue;
         follow(place, found[k], *pair);
@@ -419,7 +420,8 @@ void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePa
     partner.face = pair.face;
     partner.sphere = pair.sphere;
     partner.found = true;
-    touch.free_overlap = wall_->free_overlap(found, pair.sphere->state->pos - shift, radius_of(place));
+    touch.free_overlap =
+        wall_->free_overlap(found, touch.site, pair.sphere->state->pos - shift, radius_of(place));
 }
 
 /// Their stiffness is needed before the loop would have made them. A touch may be no contact: one that has

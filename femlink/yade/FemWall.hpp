@@ -50,6 +50,10 @@ public:
     void prepare_in_scene();
     bool has_face(const Body& body);
 
+    /// Contacts that the wall's place had before it stood there (faces by body id, shear forces on the
+    /// spheres): its faces take them over, and it is where it is under their forces.
+    void take_over(const vector<int>& face_ids, const vector<int>& spheres, const vector<Vector3r>& shear);
+
     Real stored_energy() const { return storedEnergy; }
     /// J that moving the outer boundary has supplied.
     Real supplied_energy() const { return boundaryWork; }
@@ -83,6 +87,7 @@ public:
         ((Real, boundaryWork, 0, Attr::readonly, "Work [J] that moving the outer boundary has supplied."))
         ((Real, storedEnergy, 0, Attr::readonly, "Strain energy that the contacts have put into the wall [J]."))
         ((Vector3r, force, Vector3r::Zero(), Attr::readonly, "Sum of the contact forces on the wall in the last step [N]."))
+        ((vector<Vector3r>, datum, , Attr::readonly, "Displacement [m] of the nodes that counts as none: that under the forces which :yref:`takeOver<FemWall.takeOver>` found. Empty: zero."))
         ((long, preparedStep, -1, Attr::hidden, "Last step that contacts were looked for in."))
         ((long, solvedStep, -1, Attr::hidden, "Last step that the wall was solved for."))
         ((vector<Vector3r>, savedDisplacement, , Attr::hidden, "Of the nodes, at the last step."))
@@ -98,6 +103,9 @@ public:
         .def("nodeDisplacements", &FemWall::node_displacements, "What the contacts add to the nodes' places [m].")
         .def("nodeForces", &FemWall::node_forces, "Forces of the contacts on the nodes [N].")
         .def("faceNodes", &FemWall::face_nodes, "Nodes of each face.")
+        .def("takeOver", &FemWall::take_over, (boost::python::arg("faces"), boost::python::arg("spheres"), boost::python::arg("shear")),
+             "Before the first step, O.engines and O.dt set: these spheres touch these faces (body ids) already, with these elastic shear forces on the spheres [N], as in the rigid "
+             "container where they came to rest. The wall is taken to be where it is under their forces, so that they stay at rest (:yref:`datum<FemWall.datum>`).")
         .def("touches", &FemWall::touches_now,
              "Contacts of the last step: dicts with sphere (body id), face (body id), reference (on the face, -1 to 1), point [m], normal, overlap [m], force on the sphere [N], "
              "displacement of the wall there [m].")
@@ -146,6 +154,7 @@ private:
     void solve_together(const vector<grainfall::femlink::LawContact>& laws,
                         const grainfall::femlink::SolverOptions& options);
     void exchange(const vector<grainfall::femlink::LawContact>& laws);
+    void settle();
     void write_faces();
     FaceTouch face_touch(size_t place) const;
     Real radius_of(size_t place) const;
