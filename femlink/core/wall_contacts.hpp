@@ -40,6 +40,10 @@ struct WallTouch {
     Point seen = Point::Zero(), seen_before = Point::Zero(); // m, of the wall, now and a step before
 
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero(); // m/N, compliance of the wall at the site, in its axes
+    Point drift = Point::Zero();                   // m, of `others` in a step between solutions for all
+
+    // m, what the loads of the other contacts do to the wall here, in the site's axes.
+    Eigen::Vector3d others() const { return site.axes.transpose() * seen + own * force; }
 
     bool is_empty() const { return sphere < 0; }
     double overlap() const { return free_overlap + seen.dot(site.axes.col(0)); }
@@ -92,9 +96,14 @@ public:
         if (stays)
             return false;
         const Point force = touch.site.axes * touch.force;
+        const Point left = seen(touch.site);
         touch.anchor = touch.place;
         put_site(touch, patch);
         touch.force = touch.site.axes.transpose() * force;
+        // Another place on the wall, not a motion of the wall.
+        const Point change = seen(touch.site) - left;
+        touch.seen += change;
+        touch.seen_before += change;
         return true;
     }
 
@@ -121,9 +130,19 @@ public:
         return report;
     }
 
-    // Between two solutions for all: this contact alone, the displacement under the others' loads held.
+    // After a solution for all, if the next comes in so many steps: what the other contacts do goes to its
+    // new value by then, evenly. `before`: the touch as the step before left it. A wall that jumped there in
+    // one step would hit the contacts' dashpots.
+    void approach(WallTouch& touch, const WallTouch& before, int steps) const {
+        touch.seen = seen(touch.site);
+        touch.drift = touch.site.axes * (touch.others() - before.others()) / steps;
+        touch.seen = before.seen;
+        touch.force = before.force;
+    }
+
+    // Between two solutions for all: this contact alone.
     void solve_alone(WallTouch& touch, LawContact contact, const SolverOptions& options) const {
-        const Eigen::Vector3d others = touch.site.axes.transpose() * touch.seen + touch.own * touch.force;
+        const Eigen::Vector3d others = touch.others() + touch.site.axes.transpose() * touch.drift;
         contact.free_overlap += others[0];
         contact.shift += others.tail<2>();
         Eigen::VectorXd force = touch.force;

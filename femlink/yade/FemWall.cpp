@@ -93,7 +93,7 @@ void FemWall::restore() {
         Partner partner;
         const vector<Real>& numbers = savedNumbers[i];
         touch.sphere = savedTouches[i][0];
-        if (!touch.is_empty() && numbers.size() == 14) {
+        if (!touch.is_empty() && numbers.size() == 17) {
             const auto three = [&](size_t at) {
                 return Vector3r(numbers[at], numbers[at + 1], numbers[at + 2]);
             };
@@ -104,7 +104,8 @@ void FemWall::restore() {
             wall_->put_site(touch, patch);
             touch.force = three(5);
             touch.seen = three(8);
-            partner.velocity = three(11);
+            touch.drift = three(11);
+            partner.velocity = three(14);
         }
         touches_.push_back(touch);
         partners_.push_back(partner);
@@ -127,7 +128,7 @@ void FemWall::preSave(FemWall&) {
         savedTouches.emplace_back(touch.sphere, touch.place.face, touch.anchor.face);
         vector<Real> numbers = {touch.anchor.at[0], touch.anchor.at[1]};
         for (const Vector3r& three :
-             {touch.anchor.normal, Vector3r(touch.force), touch.seen, partners_[i].velocity})
+             {touch.anchor.normal, Vector3r(touch.force), touch.seen, touch.drift, partners_[i].velocity})
             numbers.insert(numbers.end(), three.data(), three.data() + 3);
         savedNumbers.push_back(numbers);
     }
@@ -414,8 +415,7 @@ void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePa
     fl::WallTouch& touch = touches_[place];
     Partner& partner = partners_[place];
     touch.place = found;
-    if (wall_->follow(touch, patch, drift))
-        touch.seen_before = wall_->seen(touch.site);
+    wall_->follow(touch, patch, drift);
     partner.contact = pair.contact;
     partner.face = pair.face;
     partner.sphere = pair.sphere;
@@ -497,6 +497,8 @@ fl::LawContact FemWall::law_contact(size_t place) const {
 
 /// All contacts together, or, between two such solutions, each alone.
 void FemWall::solve(bool together) {
+    const bool in_between = coupling == "implicit" && interval > 1;
+    const vector<fl::WallTouch> before = together && in_between ? touches_ : vector<fl::WallTouch>();
     vector<fl::LawContact> laws;
     for (size_t i = 0; i < touches_.size(); ++i)
         laws.push_back(law_contact(i));
@@ -516,9 +518,11 @@ void FemWall::solve(bool together) {
         fl::WallTouch& touch = touches_[i];
         if (touch.is_empty())
             continue;
-        if (together)
+        if (together && in_between)
+            wall_->approach(touch, before[i], interval);
+        else if (together)
             touch.seen = wall_->seen(touch.site);
-        else if (coupling == "implicit")
+        if (in_between)
             wall_->solve_alone(touch, laws[i], options);
         const Vector3r push = touch.site.axes * touch.force;
         partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;

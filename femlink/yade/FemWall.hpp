@@ -74,7 +74,7 @@ public:
         ((vector<int>, faces, , Attr::readonly, "Ids of the bodies that are its faces, in their order in the file."))
         ((string, coupling, "implicit", , "'implicit': forces and displacement of a step are solved for together, stable for any stiffness; 'staggered': the wall takes the forces of the step before, as "
           "in the report; refused where that must diverge."))
-        ((int, interval, 1, , "Solve for all contacts together in every n-th step [-], >= 1. In between each contact is solved alone, what the others do to the wall there held."))
+        ((int, interval, 1, , "Solve for all contacts together in every n-th step [-], >= 1. In between each contact is solved alone, what the others do to the wall there going evenly to what the last such solution found."))
         ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
         ((Real, drift, 0.005, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
         ((Real, tolerance, 1e-8, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
@@ -93,7 +93,7 @@ public:
         ((vector<Vector3r>, savedDisplacement, , Attr::hidden, "Of the nodes, at the last step."))
         ((vector<Vector3r>, savedForces, , Attr::hidden, "On the nodes, at the last step."))
         ((vector<Vector3i>, savedTouches, , Attr::hidden, "Sphere, face of the contact and face of its anchor; -1 for an empty place."))
-        ((vector<vector<Real>>, savedNumbers, , Attr::hidden, "Of each contact: anchor (2), its normal, force, what it sees of the wall, velocity of the wall (3 each)."))
+        ((vector<vector<Real>>, savedNumbers, , Attr::hidden, "Of each contact: anchor (2), its normal, force, what it sees of the wall, its drift, velocity of the wall (3 each)."))
         ,
         ,
         .def(CheckedAttributes<FemWall>().add("coupling", &FemWall::coupling).add("interval", &FemWall::interval)
