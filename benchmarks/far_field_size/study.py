@@ -18,6 +18,8 @@ import numpy as np
 DIAMETER = 0.057  # m, of the replica
 #: Half-widths in diameters: of the near fields, and of the bed that is grains throughout.
 NEAR, WHOLE = (1.25, 1.75, 2.5), 3.5
+#: Steps between common solutions that are tried in the smallest near field.
+INTERVALS = (10, 30, 100, 300)
 DEPTH, GRAIN, YOUNG, END = 0.15, 12e-3, 2e8, 0.05
 #: Moment at which depths are compared, after first touch [s].
 COMPARED_AT = 0.04
@@ -61,7 +63,7 @@ class Case:
 
 
 def cases(seeds: int, interval: int) -> list[Case]:
-    """Of the study, cheapest first; the smallest near field also with other intervals."""
+    """Of the study, packing by packing; then the smallest near field with other intervals."""
     found = []
     for seed in range(1, seeds + 1):
         for half_width in NEAR:
@@ -70,12 +72,8 @@ def cases(seeds: int, interval: int) -> list[Case]:
                 Case(half_width, CONTINUUM, interval, seed),
             ]
         found.append(Case(WHOLE, RIGID, 0, seed))
-    others = [
-        Case(NEAR[0], CONTINUUM, n, seed)
-        for n in (10, 30, 100, 300)
-        for seed in range(1, seeds + 1)
-    ]
-    return sorted(dict.fromkeys([*found, *others]), key=lambda case: (case.half_width, case.seed))
+    found += [Case(NEAR[0], CONTINUUM, n, seed) for n in INTERVALS for seed in range(1, seeds + 1)]
+    return list(dict.fromkeys(found))
 
 
 def run(case: Case, folder: Path, script: Path) -> dict[str, Any]:

@@ -446,7 +446,8 @@ void FemWall::make_new_contacts_real(FunctorLists& lists) {
     }
 }
 
-fl::LawContact FemWall::law_contact(size_t place) const {
+/// `steps`: in which the wall goes where the solution puts it, which the dashpots must know.
+fl::LawContact FemWall::law_contact(size_t place, int steps) const {
     fl::LawContact out;
     const fl::WallTouch& touch = touches_[place];
     if (touch.is_empty())
@@ -460,9 +461,10 @@ fl::LawContact FemWall::law_contact(size_t place) const {
     const Vector3r shift_seen = -moved - touch.seen_before;
     out.free_overlap = touch.free_overlap;
     out.shift = {shift_seen.dot(axes.col(1)), shift_seen.dot(axes.col(2))};
-    out.relation.rate = 1 / scene->dt;
+    const Real span = steps * scene->dt;
+    out.relation.rate = 1 / span;
     out.relation.idle_overlap =
-        touch.free_overlap + touch.seen_before.dot(normal) + scene->dt * (state.vel - velocity).dot(normal);
+        touch.free_overlap + touch.seen_before.dot(normal) + span * (state.vel - velocity).dot(normal);
     Vector3r shear = Vector3r::Zero();
     if (const auto* grain = dynamic_cast<const GrainPhys*>(partner.contact->phys.get())) {
         const auto* law = Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(*scene);
@@ -501,7 +503,7 @@ void FemWall::solve(bool together) {
     const vector<fl::WallTouch> before = together && in_between ? touches_ : vector<fl::WallTouch>();
     vector<fl::LawContact> laws;
     for (size_t i = 0; i < touches_.size(); ++i)
-        laws.push_back(law_contact(i));
+        laws.push_back(law_contact(i, together && in_between ? interval : 1));
     const fl::SolverOptions options{tolerance, maxSweeps};
     if (together) {
         if (coupling == "implicit")
@@ -523,7 +525,7 @@ void FemWall::solve(bool together) {
         else if (together)
             touch.seen = wall_->seen(touch.site);
         if (in_between)
-            wall_->solve_alone(touch, laws[i], options);
+            wall_->solve_alone(touch, together ? law_contact(i) : laws[i], options);
         const Vector3r push = touch.site.axes * touch.force;
         partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
         force -= push;

@@ -148,7 +148,7 @@ private:
     void forget_touch(size_t place);
     void follow(size_t place, const grainfall::femlink::SurfaceContact& found, const FacePair& pair);
     void make_new_contacts_real(FunctorLists& lists);
-    grainfall::femlink::LawContact law_contact(size_t place) const;
+    grainfall::femlink::LawContact law_contact(size_t place, int steps = 1) const;
     void carry(Interaction& from, Interaction& to) const;
     void solve(bool together);
     void solve_together(const vector<grainfall::femlink::LawContact>& laws,

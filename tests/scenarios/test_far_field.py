@@ -98,21 +98,32 @@ def test_a_bed_does_not_notice_that_its_box_becomes_deformable(resting_bed, path
     assert builtins.far_field.disagreement < 1e-4
 
 
-def test_a_bed_stays_quiet_on_the_continuum_and_its_floor_carries_the_weight(resting_bed) -> None:
-    bed = resting_bed(**CONTINUUM)
-    builtins.energy_ledger.iterPeriod = 1
-    count, before = len(bed.radii), weight(bed)
-    forces = []
-    for _ in range(60):
-        O.run(10, True)
-        forces.append(-builtins.far_field.force[2])
-    # At rest as `grainfall.bed_settling` means it: 2e-4 m g d a grain, to which settling left the bed.
-    lift = before / count * bed.spec.diameter
-    assert kinetic_energy(bed) / count < 4e-4 * lift
-    # The bed settled to 1 % of unbalanced force and breathes by about that; its mean is the weight.
-    assert np.mean(forces) == pytest.approx(before, rel=0.01)
-    # Whatever moves is accounted for: a thousandth of what lifts the bed by a hundredth of a grain.
-    assert builtins.energy_ledger.largestResidual < 1e-3 * 0.01 * lift * count * 3
+def test_a_bed_is_as_quiet_on_the_continuum_as_in_its_box_and_the_wall_carries_its_weight(
+    resting_bed,
+) -> None:
+    energy, carried = {}, {}
+    for outside in ({}, CONTINUUM):
+        bed = resting_bed(**outside)
+        builtins.energy_ledger.iterPeriod = 1
+        planes = range(len(bed.radii), len(bed.radii) + 5)
+        forces = []
+        for _ in range(10):
+            O.run(20, True)
+            if outside:
+                forces.append(-builtins.far_field.force[2])
+            else:
+                forces.append(-sum(O.forces.f(i)[2] for i in planes))
+        energy[bool(outside)], carried[bool(outside)] = kinetic_energy(bed), np.array(forces)
+    # Numerical damping has ended with settling, so that in the box too the bed stirs a little; the continuum's give
+    # adds to that some percent at most.
+    assert energy[True] == pytest.approx(energy[False], rel=0.05)
+    np.testing.assert_allclose(carried[True], carried[False], rtol=0.01)
+    # The bed has settled to an unbalanced force of 0.8 %.
+    assert np.mean(carried[True]) == pytest.approx(weight(bed), rel=0.015)
+    # What is not accounted for would lift no grain by a thousandth of its diameter.
+    assert builtins.energy_ledger.largestResidual < 1e-3 * bed.spec.diameter * weight(bed) / len(
+        bed.radii
+    )
 
 
 def test_a_stiff_continuum_is_the_rigid_box(small_drop, wall_cache) -> None:
