@@ -156,6 +156,7 @@ def test_a_drop_in_a_continuum_states_it_and_balances(small_drop, wall_cache) ->
     assert moments == {path.name[:11] for path in vtk.glob("*-projectile.vtp")} and len(moments) > 1
     named = [part.get("file") for part in ElementTree.parse(vtk / "scene.pvd").iter("DataSet")]
     assert len(named) == 4 * len(moments) and all((vtk / name).exists() for name in named)
+    compile((vtk / "scene.py").read_text(), "scene.py", "exec")
     shown = meshio.read(vtk / f"{max(moments)}-far-field.vtu")
     moved = np.linalg.norm(shown.point_data["displacement"], axis=1).max()
     assert 0 < moved <= wall["largest_displacement_m"] * 1.1
