@@ -69,6 +69,14 @@ public:
         return matrix_;
     }
 
+    // The next matrix is computed as a whole, in the order in which a new one would be.
+    void forget() {
+        for (const int loose : used_)
+            slot_[loose] = -1;
+        used_.clear();
+        kept_.clear();
+    }
+
     int loaded_nodes() const { return static_cast<int>(used_.size()); }
 
 private:

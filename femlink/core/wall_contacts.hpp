@@ -138,6 +138,9 @@ public:
         return gain;
     }
 
+    // From here on as if read from a file.
+    void forget_matrix() { loaded_.forget(); }
+
     // What the contacts see of the wall as it lies.
     Point seen(const ContactSite& site) const { return site.axes * seen_displacement(site, displacement_); }
 

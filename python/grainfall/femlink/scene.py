@@ -2,8 +2,11 @@
 """A deformable wall in a YADE scene."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from grainfall.femlink import _wall
 from grainfall.femlink.cache import wall_path
@@ -13,6 +16,7 @@ def add_wall(
     wall: _wall.WallModel | Path | str,
     material: Any,
     cache: Path | str = "",
+    origin: Sequence[float] = (0.0, 0.0, 0.0),
     color: tuple[float, float, float] = (0.6, 0.5, 0.4),
     **attributes: Any,
 ) -> Any:
@@ -27,6 +31,8 @@ def add_wall(
         compliance is to supply the indentation, the wall's own moduli where faces are much larger than contacts.
     cache : path
         Folder of kept walls; default: ~/.cache/grainfall/walls.
+    origin : (3,) float, m
+        Where the mesh's origin lies in the scene.
     color
         Of the faces.
     attributes
@@ -50,8 +56,8 @@ def add_wall(
     scene = w.Omega()
     material = _in_scene(material)
     faces = []
-    nodes = model.surface.nodes + model.preload
-    for index, corners in enumerate(model.surface.faces):
+    nodes = model.surface.nodes + model.preload + np.asarray(origin, dtype=float)
+    for corners in model.surface.faces:
         shape = w.FemFace(nodes=[tuple(nodes[n]) for n in corners], color=color, wire=True)
         body = w.Body(material=material)
         body.shape = shape
@@ -59,7 +65,7 @@ def add_wall(
         body.dynamic = False
         body.aspherical = False
         faces.append(scene.bodies.append(body))
-    return w.FemWall(file=str(file), faces=faces, **attributes)
+    return w.FemWall(file=str(file), faces=faces, shift=tuple(origin), **attributes)
 
 
 def functors() -> tuple[list[Any], list[Any], list[Any]]:
