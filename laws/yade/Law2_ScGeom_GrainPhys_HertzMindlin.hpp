@@ -3,6 +3,7 @@
 #pragma once
 
 #include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/attribute_checks.hpp>
 
 #include <array>
 #include <atomic>
@@ -24,8 +25,9 @@ public:
     void validate() const;
     void postLoad(Law2_ScGeom_GrainPhys_HertzMindlin&);
 
-    /// One contact, one step; false when the bodies have parted.
-    using Kernel = bool (*)(Law2_ScGeom_GrainPhys_HertzMindlin&, ScGeom&, GrainPhys&, Interaction&);
+    /// One contact, one step; false when the bodies have parted. The law comes last: few kernels need it.
+    using Kernel = bool (*)(Law2_ScGeom_GrainPhys_HertzMindlin&, shared_ptr<IGeom>&, shared_ptr<IPhys>&,
+                            Interaction*);
     /// One kernel for each contact class.
     using KernelTable = std::array<Kernel, ContactClass::count>;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <laws/hertz_mindlin.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 #include <laws/yade/contact_rotation.hpp>
 #include <laws/yade/kernel_table.hpp>
@@ -57,25 +58,30 @@ inline void recall(const GrainPhys& phys, gl::ContactMemory& memory) {
 }
 inline void recall(const GrainPhys& phys, gl::PartialSlipMemory& memory) {
     recall(phys, static_cast<gl::ContactMemory&>(memory));
-    if (phys.partialSlip)
-        phys.partialSlip->recall(memory.history);
+    if (const PartialSlip* slip = slip_of(phys))
+        slip->recall(memory.history);
 }
 inline void keep(GrainPhys& phys, const gl::ContactMemory& memory) {
     phys.shearElastic = memory.shear_force;
 }
 inline void keep(GrainPhys& phys, const gl::PartialSlipMemory& memory) {
     keep(phys, static_cast<const gl::ContactMemory&>(memory));
-    if (!phys.partialSlip)
-        phys.partialSlip = shared_ptr<PartialSlip>(new PartialSlip);
-    phys.partialSlip->keep(memory.history);
+    phys.effects()->keep_slip(memory.history);
 }
 
-[[gnu::always_inline]] inline void apply_force(Law& law, const Vector3r& force_on_2, const ScGeom& geom,
-                                               const Interaction& contact, const State& state1,
-                                               const State& state2, const Vector3r& shift2) {
-    ForceContainer& forces = law.scene->forces;
-    const Body::id_t id1 = contact.getId1();
-    const Body::id_t id2 = contact.getId2();
+/// The contact with room for what the kernel keeps in it.
+template <class Memory>
+GrainPhys& with_room(GrainPhys& phys, Interaction& contact) {
+    if constexpr (std::is_same_v<Memory, gl::PartialSlipMemory>)
+        return GrainEffectPhys::of(contact);
+    else
+        return phys;
+}
+
+[[gnu::always_inline]] inline void apply_force(ForceContainer& forces, const Vector3r& force_on_2,
+                                               const ScGeom& geom, Body::id_t id1, Body::id_t id2,
+                                               const State& state1, const State& state2,
+                                               const Vector3r& shift2) {
     forces.addForce(id1, -force_on_2);
     forces.addForce(id2, force_on_2);
     forces.addTorque(id1, -(geom.contactPoint - state1.pos).cross(force_on_2));
@@ -89,25 +95,29 @@ decltype(auto) friction_of(const GrainPhys& phys) {
     if constexpr (std::is_same_v<Friction, gl::friction::Constant>)
         return gl::friction::Constant{phys.tangensOfFrictionAngle};
     else if constexpr (std::is_same_v<Friction, gl::friction::Any>)
-        return (phys.curve());
+        return (static_cast<const GrainEffectPhys&>(phys).curve());
     else
-        return (*std::get_if<Friction>(&phys.curve().curve()));
+        return (*std::get_if<Friction>(&static_cast<const GrainEffectPhys&>(phys).curve().curve()));
 }
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
+bool step(Law& law, shared_ptr<IGeom>& geometry_of, shared_ptr<IPhys>& physics, Interaction* interaction) {
     using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
-    const Scene& scene = *law.scene;
+    const ScGeom& geom = static_cast<const ScGeom&>(*geometry_of);
+    Interaction& contact = *interaction;
     if (geom.penetrationDepth < 0) {
         if constexpr (Energy::active && Tangential::active) {
             typename ContactLaw::Memory memory;
-            recall(phys, memory);
+            recall(static_cast<const GrainPhys&>(*physics), memory);
             law.book(0, 0, gl::shear_elastic_energy(memory), 0);
         }
         return false;
     }
-    const State& state1 = *Body::byId(contact.getId1(), law.scene)->state;
-    const State& state2 = *Body::byId(contact.getId2(), law.scene)->state;
+    Scene& scene = *law.scene;
+    GrainPhys& phys = with_room<typename ContactLaw::Memory>(static_cast<GrainPhys&>(*physics), contact);
+    const Body::id_t id1 = contact.getId1(), id2 = contact.getId2();
+    const State& state1 = *Body::byId(id1, &scene)->state;
+    const State& state2 = *Body::byId(id2, &scene)->state;
     Vector3r shift2 = Vector3r::Zero();
     if (scene.isPeriodic)
         shift2 = scene.cell->intrShiftPos(contact.cellDist);
@@ -159,7 +169,7 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
         // Another law may have acted before.
         phys.shearForce = phys.shearElastic = Vector3r::Zero();
     }
-    apply_force(law, phys.normalForce + phys.shearForce, geom, contact, state1, state2, shift2);
+    apply_force(scene.forces, phys.normalForce + phys.shearForce, geom, id1, id2, state1, state2, shift2);
     return true;
 }
 
