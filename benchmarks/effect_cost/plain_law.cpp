@@ -124,7 +124,11 @@ template <bool sheared, bool damped>
     phys.shearElastic = memory.shear_force;
     phys.isSliding = force.sliding;
 
-    const Vector3r on_2 = phys.normalForce + phys.shearForce;
+    Vector3r on_2;
+    if constexpr (sheared)
+        on_2 = phys.normalForce + phys.shearForce;
+    else
+        on_2 = phys.normalForce;
     ForceContainer& forces = scene->forces;
     forces.addForce(id1, -on_2);
     forces.addForce(id2, on_2);

@@ -101,20 +101,19 @@ decltype(auto) friction_of(const GrainPhys& phys) {
 }
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-bool step(Law& law, shared_ptr<IGeom>& geometry_of, shared_ptr<IPhys>& physics, Interaction* interaction) {
+[[gnu::always_inline]] inline bool inlined_step(Law& law, const ScGeom& geom, GrainPhys& given,
+                                                Interaction& contact) {
     using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
-    const ScGeom& geom = static_cast<const ScGeom&>(*geometry_of);
-    Interaction& contact = *interaction;
     if (geom.penetrationDepth < 0) {
         if constexpr (Energy::active && Tangential::active) {
             typename ContactLaw::Memory memory;
-            recall(static_cast<const GrainPhys&>(*physics), memory);
+            recall(given, memory);
             law.book(0, 0, gl::shear_elastic_energy(memory), 0);
         }
         return false;
     }
     Scene& scene = *law.scene;
-    GrainPhys& phys = with_room<typename ContactLaw::Memory>(static_cast<GrainPhys&>(*physics), contact);
+    GrainPhys& phys = with_room<typename ContactLaw::Memory>(given, contact);
     const Body::id_t id1 = contact.getId1(), id2 = contact.getId2();
     const State& state1 = *Body::byId(id1, &scene)->state;
     const State& state2 = *Body::byId(id2, &scene)->state;
@@ -161,16 +160,29 @@ bool step(Law& law, shared_ptr<IGeom>& geometry_of, shared_ptr<IPhys>& physics, 
     phys.kn = force.normal_stiffness;
     phys.ks = force.shear_stiffness;
     phys.normalForce = force.normal * geom.normal;
+    phys.isSliding = force.sliding;
     if constexpr (Tangential::active) {
         phys.shearForce = force.shear;
         keep(phys, memory);
-        phys.isSliding = force.sliding;
+        const Vector3r force_on_2 = phys.normalForce + phys.shearForce;
+        apply_force(scene.forces, force_on_2, geom, id1, id2, state1, state2, shift2);
     } else {
         // Another law may have acted before.
-        phys.shearForce = phys.shearElastic = Vector3r::Zero();
+        phys.shearForce = Vector3r::Zero();
+        phys.shearElastic = Vector3r::Zero();
+        apply_force(scene.forces, phys.normalForce, geom, id1, id2, state1, state2, shift2);
     }
-    apply_force(scene.forces, phys.normalForce + phys.shearForce, geom, id1, id2, state1, state2, shift2);
     return true;
+}
+
+/// The kernel as the table holds it. Inlining by order, before the compiler optimises, keeps all vectors of
+/// the contact in registers: left to itself it spills some, ten instructions in every contact.
+template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+[[gnu::flatten]] bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
+                           Interaction* contact) {
+    return inlined_step<Normal, Tangential, Damping, Friction, Energy>(
+        static_cast<Law&>(entry), static_cast<const ScGeom&>(*geometry), static_cast<GrainPhys&>(*physics),
+        *contact);
 }
 
 struct StepMaker {

@@ -23,7 +23,8 @@ void solid_contact(Law& law, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& phy
 }
 
 template <class Form, class Film, class Energy>
-bool step(Law& law, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact) {
+bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact) {
+    Law& law = static_cast<Law&>(entry);
     solid_contact(law, geometry, physics, contact, Energy::active);
     const auto& geom = static_cast<const ScGeom&>(*geometry);
     auto& phys = static_cast<GrainEffectPhys&>(*physics);
