@@ -175,11 +175,18 @@ template <class Normal, class Tangential, class Damping, class Friction, class E
     return true;
 }
 
-/// The kernel as the table holds it. Inlining by order, before the compiler optimises, keeps all vectors of
-/// the contact in registers: left to itself it spills some, ten instructions in every contact.
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-[[gnu::flatten]] bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
-                           Interaction* contact) {
+bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact) {
+    return inlined_step<Normal, Tangential, Damping, Friction, Energy>(
+        static_cast<Law&>(entry), static_cast<const ScGeom&>(*geometry), static_cast<GrainPhys&>(*physics),
+        *contact);
+}
+
+/// Left to itself, the compiler passes some vectors of the contact through memory. It does so with this order
+/// too where the same translation unit has kernels without it.
+template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+[[gnu::flatten]] bool flat_step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
+                                Interaction* contact) {
     return inlined_step<Normal, Tangential, Damping, Friction, Energy>(
         static_cast<Law&>(entry), static_cast<const ScGeom&>(*geometry), static_cast<GrainPhys&>(*physics),
         *contact);
@@ -188,7 +195,11 @@ template <class Normal, class Tangential, class Damping, class Friction, class E
 struct StepMaker {
     template <class Normal, class Tangential, class Damping, class Friction, class Energy>
     static Law::Kernel kernel() {
-        return &step<Normal, Tangential, Damping, Friction, Energy>;
+        // The history of partial slip is too long a code to be worth it.
+        if constexpr (std::is_same_v<Tangential, gl::PartialSlipTangential>)
+            return &step<Normal, Tangential, Damping, Friction, Energy>;
+        else
+            return &flat_step<Normal, Tangential, Damping, Friction, Energy>;
     }
 };
 
