@@ -89,15 +89,19 @@ GrainPhys& with_room(GrainPhys& phys, Interaction& contact) {
 }
 
 /// Constant friction is a number that every YADE law keeps in the same place; the other curves are held by
-/// the contact.
+/// the contact, and its class, which chose this kernel, tells of which form it is.
 template <class Friction>
 decltype(auto) friction_of(const GrainPhys& phys) {
-    if constexpr (std::is_same_v<Friction, gl::friction::Constant>)
+    if constexpr (std::is_same_v<Friction, gl::friction::Constant>) {
         return gl::friction::Constant{phys.tangensOfFrictionAngle};
-    else if constexpr (std::is_same_v<Friction, gl::friction::Any>)
+    } else if constexpr (std::is_same_v<Friction, gl::friction::Any>) {
         return (static_cast<const GrainEffectPhys&>(phys).curve());
-    else
-        return (*std::get_if<Friction>(&static_cast<const GrainEffectPhys&>(phys).curve().curve()));
+    } else {
+        const auto* curve = std::get_if<Friction>(&static_cast<const GrainEffectPhys&>(phys).curve().curve());
+        if (!curve)
+            __builtin_unreachable();
+        return (*curve);
+    }
 }
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
