@@ -174,10 +174,11 @@ def table(cases: dict[str, dict[str, Any]]) -> str:
             f"{case['step_instructions']:.0f}",
             f"{case['bytes'] - base['bytes']:+.0f}",
         ]
-        if timed:
-            low, high = case.get("nanoseconds_more_quartiles", (0, 0))
-            text = f"{case['nanoseconds_more']:+.0f} ({low:+.0f} to {high:+.0f})"
-            row.append(text if "nanoseconds_more" in case else "")
+        if timed and "nanoseconds_more" in case:
+            low, high = case["nanoseconds_more_quartiles"]
+            row.append(f"{case['nanoseconds_more']:+.0f} ({low:+.0f} to {high:+.0f})")
+        elif timed:
+            row.append("")
         lines.append("| " + " | ".join(row) + " |")
     return "\n".join(lines)
 
