@@ -45,7 +45,7 @@ namespace gb = grainfall::laws::bridge;
 /// The dry contact while the bodies touch, and in the step in which they part, for its books.
 void solid_contact(FlatLoop& loop, FlatContacts& contacts, size_t i, FlatKernel dry, bool touching) {
     gf::ContactState& state = contacts.states[i];
-    GrainPhys& phys = *contacts.owners[i].phys;
+    auto& phys = static_cast<GrainEffectPhys&>(*contacts.owners[i].phys);
     const bool was_touching = phys.bridge->separation <= 0 || state.shear_stiffness > 0;
     if (!touching && !was_touching)
         return;
@@ -71,7 +71,7 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
         const gf::Motion& motion2 = loop.bodies.motions[static_cast<size_t>(state.second)];
         const Real normal_velocity = (motion2.velocity - motion1.velocity).dot(at.touch.normal);
 
-        LiquidBridge& bridge = *contacts.owners[i].phys->bridge;
+        LiquidBridge& bridge = *contacts.owners[i].phys->effects()->bridge;
         gb::BridgeMemory memory = bridge.memory();
         Energy book;
         const gb::BridgeState held = gb::LiquidBridge<Form, Film, Energy>::step(

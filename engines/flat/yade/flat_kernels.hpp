@@ -7,7 +7,7 @@
 #include <laws/hertz_mindlin.hpp>
 #include <laws/sphere_kinematics.hpp>
 #include <laws/yade/ContactClass.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/kernel_table.hpp>
 
 #include <core/Interaction.hpp>
@@ -142,14 +142,14 @@ template <class Friction>
 /// The slip history stays with YADE's object.
 inline void recall_history(const ContactOwner&, gl::ContactMemory&) {}
 inline void recall_history(const ContactOwner& owner, gl::PartialSlipMemory& memory) {
-    if (owner.phys->partialSlip)
-        owner.phys->partialSlip->recall(memory.history);
+    if (const PartialSlip* slip = slip_of(*owner.phys))
+        slip->recall(memory.history);
 }
-inline void keep_history(const ContactOwner&, const gl::ContactMemory&) {}
-inline void keep_history(const ContactOwner& owner, const gl::PartialSlipMemory& memory) {
-    if (!owner.phys->partialSlip)
-        owner.phys->partialSlip = shared_ptr<PartialSlip>(new PartialSlip);
-    owner.phys->partialSlip->keep(memory.history);
+inline void keep_history(ContactOwner&, const gl::ContactMemory&) {}
+inline void keep_history(ContactOwner& owner, const gl::PartialSlipMemory& memory) {
+    GrainEffectPhys& phys = GrainEffectPhys::of(*owner.contact);
+    owner.phys = &phys;
+    phys.keep_slip(memory.history);
 }
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>

@@ -4,6 +4,7 @@
 
 #include <femlink/yade/FemFace.hpp>
 #include <laws/yade/GrainMat.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/Cell.hpp>
@@ -176,7 +177,7 @@ FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
     if (ContactClass(phys.contactClass).friction() == FrictionForm::constant)
         result.constants.coefficient = phys.tangensOfFrictionAngle;
     else
-        result.constants.curve = &phys.curve();
+        result.constants.curve = &phys.effects()->curve();
     result.dashpot = recall_dashpots(result.owner);
     return result;
 }
