@@ -3,7 +3,7 @@
 
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
 #include <femlink/yade/Ig2_FemFace_Sphere_ScGeom.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/InteractionContainer.hpp>
@@ -350,7 +350,7 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         if (restored_ && place != nowhere)
             partners_[place].contact = pair->contact;
         const auto* phys = dynamic_cast<const GrainPhys*>(pair->contact->phys.get());
-        if (phys && phys->bridge)
+        if (phys && bridge_of(*phys))
             reach = std::max(reach, 1.5 * radius);
     }
     const auto pair_of = [&](int face) {
@@ -474,7 +474,7 @@ fl::LawContact FemWall::law_contact(size_t place) const {
         if (ContactClass(grain->contactClass).friction() == FrictionForm::constant)
             out.friction = grain->tangensOfFrictionAngle;
         else
-            out.curve = &grain->curve();
+            out.curve = &grain->effects()->curve();
     } else if (const auto* spring = dynamic_cast<const FrictPhys*>(partner.contact->phys.get())) {
         out.relation.linear = true;
         out.relation.coefficient = spring->kn;
