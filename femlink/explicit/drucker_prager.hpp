@@ -16,7 +16,8 @@ namespace grainfall::femlink {
 
 class DruckerPrager {
 public:
-    static constexpr int history = 2; // equivalent plastic strain; plastic work, Pa
+    static constexpr int history = 3; // equivalent plastic strain; plastic work, Pa; its rate over the flow
+                                      // while the point flows, else 0, Pa
 
     explicit DruckerPrager(const SolidMaterial& m)
         : mu_(m.elastic.mu()), bulk_(m.elastic.lambda() + 2 * m.elastic.mu() / 3),
@@ -25,14 +26,16 @@ public:
 
     static Volume volume(double ratio) { return {ratio}; }
 
-    Symmetric stress(Symmetric& b, const Volume&, double* history_of_point) const {
+    Symmetric stress(Symmetric& b, const Volume&, double* at) const {
         const Symmetric strain = half_logarithm(b);
         const Symmetric shape = strain.deviator();
         const double pressure = bulk_ * strain.trace();
         const double root_j2 = mu_ * std::sqrt(2 * contraction(shape, shape));
         const double excess = root_j2 + eta_ * pressure - strength_;
-        if (!(excess > 0))
+        if (!(excess > 0)) {
+            at[2] = 0;
             return plus_identity(2 * mu_ * shape, pressure);
+        }
 
         const double flow = excess / (mu_ + bulk_ * eta_ * flow_eta_);
         const bool on_cone = root_j2 - mu_ * flow >= 0 || eta_ == 0;
@@ -41,8 +44,8 @@ public:
         const Symmetric plastic = plus_identity((1 - kept) * shape, (pressure - new_pressure) / (3 * bulk_));
         const Symmetric tau = plus_identity((2 * mu_ * kept) * shape, new_pressure);
         b = coaxial_product(b, exponential(-2 * plastic));
-        history_of_point[0] += root_2_3 * std::sqrt(contraction(plastic, plastic));
-        history_of_point[1] += contraction(tau, plastic);
+        at[0] += root_2_3 * std::sqrt(contraction(plastic, plastic));
+        add_work(at, contraction(tau, plastic), flow);
         return tau;
     }
 
@@ -51,12 +54,19 @@ public:
         const Symmetric shape = strain.deviator();
         return 0.5 * bulk_ * strain.trace() * strain.trace() + mu_ * contraction(shape, shape);
     }
-    double plastic_work(const double* history_of_point) const { return history_of_point[1]; }
+    double plastic_work(const double* at) const { return at[1]; }
     double wave_factor(double least, double, double log_volume) const {
         return (1 + std::abs(log_volume)) / (least * least);
     }
 
 private:
+    // The strength follows the pressure, so that the work of a step is that of the mean strength in it.
+    static void add_work(double* at, double work, double flow) {
+        const double strength = work / flow;
+        at[1] += (at[2] > 0 ? 0.5 * (strength + at[2]) : strength) * flow;
+        at[2] = strength;
+    }
+
     static constexpr double root_2_3 = 0.816496580927726;
     static double denominator(double angle) { return std::sqrt(3.0) * (3 - std::sin(angle)); }
     static double slope(double angle) { return 6 * std::sin(angle) / denominator(angle); }
