@@ -15,7 +15,7 @@ namespace grainfall::femlink {
 
 struct ExplicitOptions {
     ElementKind element = ElementKind::gauss;
-    double hourglass = 0.1; // of the one-point element: share of the shear stiffness
+    double hourglass = 1; // of the one-point element: share of the shear stiffness
     OuterBoundary outer = OuterBoundary::fixed;
     double safety = 0.9;                  // longest substep over the critical one
     std::vector<std::array<int, 2>> held; // node and axis, held besides the fixed boundary

@@ -111,11 +111,12 @@ outer : 'fixed', 'absorbing' (dashpots, and springs for the static load) or 'das
 safety : float
     Longest substep over the critical one, which is a bound: regular meshes are stable a little above 1.
 hourglass : float
-    Stiffness of the one-point element against hourglassing, share of the shear stiffness.
+    Stiffness of the one-point element against hourglassing, share of the shear stiffness: 1 under grains, about 0.1
+    where plastic flow is large, which it would stiffen.
 held : (n, 3) bool
     Components of vertices held besides the fixed boundary. Held components keep the velocity they are given.)")
         .def(py::init(&explicit_from), py::arg("mesh"), py::arg("materials"), py::arg("element") = "gauss",
-             py::arg("outer") = "fixed", py::arg("safety") = 0.9, py::arg("hourglass") = 0.1,
+             py::arg("outer") = "fixed", py::arg("safety") = 0.9, py::arg("hourglass") = 1.0,
              py::arg("held") = Mask())
         .def_property_readonly(
             "surface", &ExplicitContinuum::surface,
