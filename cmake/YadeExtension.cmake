@@ -106,6 +106,8 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenarios" DESTINATION share/grainfall 
 install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION share/doc/grainfall)
 
 grainfall_add_femlink_module(wall)
+# The explicit continuum's cell loops take half as long again at -O2.
+target_compile_options(grainfall_femlink_wall PRIVATE -fno-math-errno $<$<CONFIG:Release>:-O3>)
 if(GRAINFALL_CONTINUUM)
     grainfall_add_femlink_module(continuum grainfall_continuum)
 endif()
