@@ -12,9 +12,6 @@
 namespace grainfall::laws {
 
 using Vector = Eigen::Vector3d;
-// Of one contact (double) or of several side by side (Lanes).
-template <class Scalar>
-using VectorOf = Eigen::Matrix<typename ScalarTraits<Scalar>::Itself, 3, 1>;
 
 // How the contact lies and how it moved during the last step.
 template <class Scalar>

@@ -25,16 +25,18 @@ namespace detail {
 // mu where it is asked for; a curve of several contacts need not be evaluated elsewhere, where its lower
 // bound has settled the question.
 template <class Friction>
-double coefficient(const Friction& friction, double load, bool) {
+[[gnu::always_inline]] inline double coefficient(const Friction& friction, double load, bool) {
     return friction.coefficient(load);
 }
 template <class Friction>
-Lanes coefficient(const Friction& friction, const Lanes& load, const LaneMask& open) {
+[[gnu::always_inline]] inline Lanes coefficient(const Friction& friction, const Lanes& load,
+                                                const LaneMask& open) {
     return friction.coefficient(load, open);
 }
 
 template <class Scalar>
-Scalar shortening(const MaskOf<Scalar>& slides, const Scalar& limit, const Scalar& squared) {
+[[gnu::always_inline]] inline Scalar shortening(const MaskOf<Scalar>& slides, const Scalar& limit,
+                                                const Scalar& squared) {
     using std::sqrt;
     return where(slides, limit / sqrt(squared), Scalar(1));
 }

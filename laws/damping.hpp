@@ -34,7 +34,7 @@ struct RepulsiveDashpot {
     static constexpr bool active = true;
     static constexpr bool attracts = false;
     template <class Scalar>
-    static Scalar total(const Scalar& elastic, const Scalar& viscous) {
+    [[gnu::always_inline]] static Scalar total(const Scalar& elastic, const Scalar& viscous) {
         return larger(Scalar(0), elastic + viscous);
     }
 };
@@ -43,7 +43,7 @@ struct AttractiveDashpot {
     static constexpr bool active = true;
     static constexpr bool attracts = true;
     template <class Scalar>
-    static Scalar total(const Scalar& elastic, const Scalar& viscous) {
+    [[gnu::always_inline]] static Scalar total(const Scalar& elastic, const Scalar& viscous) {
         return elastic + viscous;
     }
 };

@@ -73,8 +73,8 @@ private:
         const VectorOf<Scalar> before = rotated_with_contact(memory.shear_force, geometry);
         VectorOf<Scalar> elastic = before;
         if constexpr (Tangential::rescales_on_loading || Tangential::rescales_on_unloading) {
-            const auto rescales =
-                Tangential::rescales_on_loading ? memory.shear_stiffness > 0 : stiffness < memory.shear_stiffness;
+            const auto rescales = Tangential::rescales_on_loading ? memory.shear_stiffness > 0
+                                                                  : stiffness < memory.shear_stiffness;
             if (any(rescales))
                 elastic *= where(rescales, stiffness / memory.shear_stiffness, Scalar(1));
         }

@@ -50,9 +50,10 @@ shear_velocity(const TouchOf<Scalar>& touch, const VectorOf<Scalar>& velocity, c
 
 // `velocity` is that of body 2 less that of body 1. Fills everything but tilt and twist.
 template <class Scalar>
-[[gnu::always_inline]] inline void
-put_motion(ContactGeometryOf<Scalar>& geometry, const TouchOf<Scalar>& touch, const VectorOf<Scalar>& velocity,
-           const VectorOf<Scalar>& spin1, const VectorOf<Scalar>& spin2, double time_step) {
+[[gnu::always_inline]] inline void put_motion(ContactGeometryOf<Scalar>& geometry,
+                                              const TouchOf<Scalar>& touch, const VectorOf<Scalar>& velocity,
+                                              const VectorOf<Scalar>& spin1, const VectorOf<Scalar>& spin2,
+                                              double time_step) {
     geometry.overlap = touch.overlap;
     geometry.normal = touch.normal;
     geometry.shear_increment = Scalar(time_step) * shear_velocity(touch, velocity, spin1, spin2);
@@ -62,9 +63,9 @@ put_motion(ContactGeometryOf<Scalar>& geometry, const TouchOf<Scalar>& touch, co
 
 // How the contact turned since its normal was `before`.
 template <class Scalar>
-[[gnu::always_inline]] inline void
-put_rotation(ContactGeometryOf<Scalar>& geometry, const VectorOf<Scalar>& before,
-             const VectorOf<Scalar>& spin1, const VectorOf<Scalar>& spin2) {
+[[gnu::always_inline]] inline void put_rotation(ContactGeometryOf<Scalar>& geometry,
+                                                const VectorOf<Scalar>& before, const VectorOf<Scalar>& spin1,
+                                                const VectorOf<Scalar>& spin2) {
     geometry.tilt = before.cross(geometry.normal);
     geometry.twist = (0.5 * geometry.time_step * before.dot(spin1 + spin2)) * before;
 }

@@ -86,18 +86,19 @@ struct ReportTangential {
 
 // N/m, tangent k_t; `coefficient` is 8 G* sqrt(R*).
 template <class Normal, class Tangential, class Scalar>
-Scalar shear_stiffness(const Scalar& coefficient, const Scalar& root_overlap) {
+[[gnu::always_inline]] inline Scalar shear_stiffness(const Scalar& coefficient, const Scalar& root_overlap) {
     return Tangential::factor * Normal::cube_root_of_factor * coefficient * root_overlap;
 }
 
 // J, energy in the tangential spring: F_t^2/(2 k_t).
 template <class Scalar>
-Scalar shear_elastic_energy(const VectorOf<Scalar>& force, const Scalar& stiffness) {
+[[gnu::always_inline]] inline Scalar shear_elastic_energy(const VectorOf<Scalar>& force,
+                                                          const Scalar& stiffness) {
     return where(stiffness > 0, 0.5 * force.squaredNorm() / stiffness, Scalar(0));
 }
 
 template <class Scalar>
-Scalar shear_elastic_energy(const ContactMemoryOf<Scalar>& memory) {
+[[gnu::always_inline]] inline Scalar shear_elastic_energy(const ContactMemoryOf<Scalar>& memory) {
     return shear_elastic_energy(memory.shear_force, memory.shear_stiffness);
 }
 

@@ -25,10 +25,11 @@ template <class Scalar, class Value>
             laws::packed<Scalar>([&](int lane) { return value(lane)[1]; }),
             laws::packed<Scalar>([&](int lane) { return value(lane)[2]; })};
 }
-template <class Scalar>
-[[gnu::always_inline]] inline Vector lane_of(const VectorOf<Scalar>& vectors, int lane) {
-    using laws::lane_of;
-    return {lane_of(vectors[0], lane), lane_of(vectors[1], lane), lane_of(vectors[2], lane)};
+[[gnu::always_inline]] inline const Vector& lane_of(const Vector& vector, int) {
+    return vector;
+}
+[[gnu::always_inline]] inline Vector lane_of(const laws::LaneVector& vectors, int lane) {
+    return {vectors.x.pack[lane], vectors.y.pack[lane], vectors.z.pack[lane]};
 }
 
 // The contact point lies at arm1 n from the centre of a first sphere, at -arm2 n from that of the second.
@@ -41,7 +42,7 @@ struct TouchAt {
 template <class Scalar>
 [[gnu::always_inline]] inline TouchAt<double> lane_of(const TouchAt<Scalar>& at, int lane) {
     using laws::lane_of;
-    return {{flat::lane_of<Scalar>(at.touch.normal, lane), lane_of(at.touch.overlap, lane),
+    return {{flat::lane_of(at.touch.normal, lane), lane_of(at.touch.overlap, lane),
              lane_of(at.touch.radius1, lane), lane_of(at.touch.radius2, lane)},
             lane_of(at.arm1, lane),
             lane_of(at.arm2, lane)};
@@ -51,17 +52,17 @@ template <class Scalar>
 inline laws::ContactGeometry lane_of(const laws::ContactGeometryOf<Scalar>& geometry, int lane) {
     using laws::lane_of;
     return {lane_of(geometry.overlap, lane),
-            flat::lane_of<Scalar>(geometry.normal, lane),
-            flat::lane_of<Scalar>(geometry.shear_increment, lane),
-            flat::lane_of<Scalar>(geometry.tilt, lane),
-            flat::lane_of<Scalar>(geometry.twist, lane),
+            flat::lane_of(geometry.normal, lane),
+            flat::lane_of(geometry.shear_increment, lane),
+            flat::lane_of(geometry.tilt, lane),
+            flat::lane_of(geometry.twist, lane),
             lane_of(geometry.normal_velocity, lane),
             geometry.time_step};
 }
 template <class Scalar>
 inline laws::ContactForce lane_of(const laws::ContactForceOf<Scalar>& force, int lane) {
     using laws::lane_of;
-    return {lane_of(force.normal, lane), flat::lane_of<Scalar>(force.shear, lane),
+    return {lane_of(force.normal, lane), flat::lane_of(force.shear, lane),
             lane_of(force.normal_stiffness, lane), lane_of(force.shear_stiffness, lane),
             lane_of(force.sliding, lane)};
 }
@@ -94,7 +95,9 @@ public:
 
     int count() const { return last_ + 1; }
     // Index of a lane's contact.
-    std::size_t operator[](int lane) const { return begin_ + static_cast<std::size_t>(std::min(lane, last_)); }
+    std::size_t operator[](int lane) const {
+        return begin_ + static_cast<std::size_t>(std::min(lane, last_));
+    }
     const ContactState& state(int lane) const { return states_[(*this)[lane]]; }
     std::size_t first(int lane) const { return static_cast<std::size_t>(state(lane).first); }
     std::size_t second(int lane) const { return static_cast<std::size_t>(state(lane).second); }
@@ -132,7 +135,7 @@ public:
     }
 
     // Lanes without a contact of their own.
-    laws::MaskOf<Scalar> empty() const {
+    [[gnu::always_inline]] laws::MaskOf<Scalar> empty() const {
         return laws::packed<Scalar>([](int lane) { return double(lane); }) >
                Scalar(static_cast<double>(last_));
     }
@@ -146,8 +149,8 @@ public:
         });
     }
 
-    VectorOf<Scalar> spin1() const { return of_first(&Motion::spin); }
-    VectorOf<Scalar> spin2() const { return of_second(&Motion::spin); }
+    [[gnu::always_inline]] VectorOf<Scalar> spin1() const { return of_first(&Motion::spin); }
+    [[gnu::always_inline]] VectorOf<Scalar> spin2() const { return of_second(&Motion::spin); }
 
     // `member`: Motion::velocity or Motion::spin.
     [[gnu::always_inline]] VectorOf<Scalar> of_first(Vector Motion::*member) const {
@@ -163,8 +166,7 @@ public:
     [[gnu::always_inline]] VectorOf<Scalar> normal_before() const {
         const Scalar known =
             laws::packed<Scalar>([&](int lane) { return state(lane).shear_stiffness > 0 ? 1. : 0.; });
-        return known *
-               packed_vector<Scalar>([&](int lane) -> const Vector& { return state(lane).normal; });
+        return known * packed_vector<Scalar>([&](int lane) -> const Vector& { return state(lane).normal; });
     }
     // Of the second bodies seen from the first.
     [[gnu::always_inline]] VectorOf<Scalar> velocity() const {
@@ -186,7 +188,7 @@ public:
     void keep(const laws::DissipationBookOf<Scalar>& book, std::vector<DashpotMemory>& dashpots) const {
         for (int lane = 0; lane < count(); ++lane)
             dashpots[(*this)[lane]] = {laws::lane_of(book.normal_viscous_force, lane),
-                                       flat::lane_of<Scalar>(book.shear_viscous_force, lane)};
+                                       flat::lane_of(book.shear_viscous_force, lane)};
     }
 
     [[gnu::always_inline]] laws::ContactParametersOf<Scalar>
@@ -206,8 +208,8 @@ public:
                                      ContactState* states) const {
         for (int lane = 0; lane < width; ++lane) {
             ContactState& state = states[(*this)[lane]];
-            state.normal = flat::lane_of<Scalar>(normal, lane);
-            state.shear_force = flat::lane_of<Scalar>(memory.shear_force, lane);
+            state.normal = flat::lane_of(normal, lane);
+            state.shear_force = flat::lane_of(memory.shear_force, lane);
             state.shear_stiffness = laws::lane_of(memory.shear_stiffness, lane);
         }
     }
@@ -221,10 +223,10 @@ public:
         for (int lane = 0; lane < width; ++lane) {
             Load& load1 = loads[first(lane)];
             Load& load2 = loads[second(lane)];
-            load1.force -= flat::lane_of<Scalar>(force_on_2, lane);
-            load1.torque -= flat::lane_of<Scalar>(torque1, lane);
-            load2.force += flat::lane_of<Scalar>(force_on_2, lane);
-            load2.torque -= flat::lane_of<Scalar>(torque2, lane);
+            load1.force -= flat::lane_of(force_on_2, lane);
+            load1.torque -= flat::lane_of(torque1, lane);
+            load2.force += flat::lane_of(force_on_2, lane);
+            load2.torque -= flat::lane_of(torque2, lane);
         }
     }
 
@@ -241,16 +243,25 @@ template <class Curve, class Scalar>
 struct BlockFriction {
     const Curve* curves[laws::width_of<Scalar>];
 
-    [[gnu::noinline]] Scalar lower_bound() const {
+    [[gnu::always_inline]] Scalar lower_bound() const {
         return laws::packed<Scalar>([&](int lane) { return curves[lane]->lower_bound(); });
     }
-    [[gnu::noinline]] Scalar coefficient(const Scalar& load, const laws::MaskOf<Scalar>& open) const {
-        return laws::packed<Scalar>([&](int lane) {
+    [[gnu::always_inline]] Scalar coefficient(const Scalar& load, const laws::MaskOf<Scalar>& open) const {
+        Scalar mu;
+        evaluate(load, open, mu);
+        return mu;
+    }
+    [[gnu::always_inline]] Scalar coefficient(const Scalar& load) const {
+        return coefficient(load, laws::MaskOf<Scalar>(true));
+    }
+
+private:
+    [[gnu::noinline]] void evaluate(const Scalar& load, const laws::MaskOf<Scalar>& open, Scalar& mu) const {
+        mu = laws::packed<Scalar>([&](int lane) {
             return laws::lane_of(open, lane) ? curves[lane]->coefficient(laws::lane_of(load, lane))
                                              : curves[lane]->lower_bound();
         });
     }
-    Scalar coefficient(const Scalar& load) const { return coefficient(load, laws::MaskOf<Scalar>(true)); }
 };
 template <class Scalar>
 struct BlockFriction<laws::friction::Constant, Scalar> {

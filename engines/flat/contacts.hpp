@@ -36,7 +36,8 @@ struct DashpotMemory {
     Vector shear = Vector::Zero();
 };
 
-// Contacts of one class, all of spheres or all on planes. Owner: what else belongs to a contact, for the caller.
+// Contacts of one class, all of spheres or all on planes. Owner: what else belongs to a contact, for the
+// caller.
 template <class Owner>
 struct Segment {
     int contact_class = 0;

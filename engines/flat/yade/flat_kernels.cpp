@@ -73,9 +73,9 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
         const FlatTouch at = contacts.on_planes ? pair.touch_of_planes() : pair.touch_of_spheres();
         gb::BridgeMemory memory = bridge.memory();
         Energy book;
-        const gb::BridgeState held =
-            gb::LiquidBridge<Form, Film, Energy>::step(-at.touch.overlap, pair.velocity().dot(at.touch.normal),
-                                                       loop.time_step, bridge.parameters(), memory, book);
+        const gb::BridgeState held = gb::LiquidBridge<Form, Film, Energy>::step(
+            -at.touch.overlap, pair.velocity().dot(at.touch.normal), loop.time_step, bridge.parameters(),
+            memory, book);
         bridge.remember(memory);
         if constexpr (Energy::active) {
             loop.book.viscous += book.viscous;

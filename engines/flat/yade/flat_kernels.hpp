@@ -74,9 +74,9 @@ inline Vector3r plane_lever(const gf::Bodies& bodies, const gf::ContactState& st
 }
 
 /// `turn`: normal x shear force. The normal force has no arm about the centre of a sphere.
-[[gnu::always_inline]] inline void apply(const FlatLoop& loop, bool on_plane,
-                                         const gf::ContactState& state, const FlatTouch& at,
-                                         const Vector3r& force_on_2, const Vector3r& turn) {
+[[gnu::always_inline]] inline void apply(const FlatLoop& loop, bool on_plane, const gf::ContactState& state,
+                                         const FlatTouch& at, const Vector3r& force_on_2,
+                                         const Vector3r& turn) {
     gf::Load& load1 = loop.loads[state.first];
     gf::Load& load2 = loop.loads[state.second];
     load1.force -= force_on_2;
@@ -142,7 +142,7 @@ template <class Scalar>
         const FlatTouch at = gf::lane_of(outcome.at, lane);
         const gl::ContactForce force = gf::lane_of(outcome.force, lane);
         state.normal = at.touch.normal;
-        state.shear_force = gf::lane_of<Scalar>(outcome.memory.shear_force, lane);
+        state.shear_force = gf::lane_of(outcome.memory.shear_force, lane);
         state.shear_stiffness = gl::lane_of(outcome.memory.shear_stiffness, lane);
         apply(loop, contacts.on_planes, state, at, force.normal * at.touch.normal + force.shear,
               at.touch.normal.cross(force.shear));
@@ -222,7 +222,8 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
         if constexpr (Tangential::active)
             keep_history(contacts.owners[i], memory);
         if (gl::any(idle) || loop.publish || contacts.on_planes)
-            finish_each<Scalar>(loop, contacts, block, {idle, at, geometry, force, memory}, Tangential::active);
+            finish_each<Scalar>(loop, contacts, block, {idle, at, geometry, force, memory},
+                                Tangential::active);
         else {
             block.keep(at.touch.normal, memory, contacts.states.data());
             block.push(at, force, loop.loads);
@@ -230,22 +231,26 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
     }
 }
 
-/// Left to itself, the compiler keeps some sums of vectors out of line and passes them through memory. The
-/// second version, taken where the processor has these instructions, is a sixth faster.
-template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-[[gnu::flatten, gnu::target_clones("arch=haswell", "default")]] void
-run_side_by_side(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
-    run<gl::Lanes, Normal, Tangential, Damping, Friction, Energy>(loop, contacts, begin, end);
+/// Flattened, because the compiler else keeps sums of vectors out of line and passes them through memory. The
+/// first version is taken by processors with AVX2 and FMA (arch=haswell would ask for that very model).
+template <class Scalar, class Normal, class Tangential, class Damping, class Friction, class Energy>
+[[gnu::flatten, gnu::target_clones("arch=x86-64-v3", "default")]] void
+run_inlined(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
+    run<Scalar, Normal, Tangential, Damping, Friction, Energy>(loop, contacts, begin, end);
 }
 
 struct RunMaker {
     template <class Normal, class Tangential, class Damping, class Friction, class Energy>
     static FlatKernel kernel() {
-        // Laws for comparison are not worth the time that they take to compile side by side.
-        if constexpr (std::is_same_v<Tangential, gl::IncrementalTangential> && std::is_same_v<Normal, gl::Hertz> && std::is_same_v<Friction, gl::friction::Constant> && std::is_same_v<Damping, gl::RepulsiveDashpot> && !Energy::active)
-            return &run_side_by_side<Normal, Tangential, Damping, Friction, Energy>;
-        else
+        // The laws for comparison are not worth the time that the compiler takes to write them side by side;
+        // the history of partial slip differs from contact to contact in its length.
+        constexpr bool usual =
+            std::is_same_v<Tangential, gl::IncrementalTangential> && std::is_same_v<Normal, gl::Hertz>;
+        if constexpr (std::is_same_v<Tangential, gl::PartialSlipTangential>)
             return &run<Real, Normal, Tangential, Damping, Friction, Energy>;
+        else
+            return &run_inlined<std::conditional_t<usual, gl::Lanes, Real>, Normal, Tangential, Damping,
+                                Friction, Energy>;
     }
 };
 

@@ -66,8 +66,9 @@ vector<FlatGrains::Imported> FlatGrains::collect_contacts() {
     for (Domain& domain : domains_) {
         for (FlatContacts& segment : domain.segments) {
             for (size_t i = 0; i < segment.size(); ++i) {
-                contacts.push_back({segment.contact_class, segment.on_planes, segment.states[i], segment.constants[i],
-                                    segment.owners[i], booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
+                contacts.push_back({segment.contact_class, segment.on_planes, segment.states[i],
+                                    segment.constants[i], segment.owners[i],
+                                    booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
             }
         }
         domain.segments.clear();
