@@ -185,10 +185,13 @@ public:
         book.shear_viscous_force =
             packed_vector<Scalar>([&](int lane) -> const Vector& { return of(lane).shear; });
     }
-    void keep(const laws::DissipationBookOf<Scalar>& book, std::vector<DashpotMemory>& dashpots) const {
+    // Into the array, but for the lanes that are idle.
+    void keep(const laws::DissipationBookOf<Scalar>& book, const laws::MaskOf<Scalar>& idle,
+              std::vector<DashpotMemory>& dashpots) const {
         for (int lane = 0; lane < count(); ++lane)
-            dashpots[(*this)[lane]] = {laws::lane_of(book.normal_viscous_force, lane),
-                                       flat::lane_of(book.shear_viscous_force, lane)};
+            if (!laws::lane_of(idle, lane))
+                dashpots[(*this)[lane]] = {laws::lane_of(book.normal_viscous_force, lane),
+                                           flat::lane_of(book.shear_viscous_force, lane)};
     }
 
     [[gnu::always_inline]] laws::ContactParametersOf<Scalar>

@@ -217,7 +217,7 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
                 kinematics = -0.5 * (shear_before + force.shear).dot(geometry.shear_increment - moved);
             }
             settle<Scalar>(loop.book, book, kinematics, idle);
-            block.keep(book, contacts.dashpots);
+            block.keep(book, idle, contacts.dashpots);
         }
         if constexpr (Tangential::active)
             keep_history(contacts.owners[i], memory);
