@@ -115,7 +115,7 @@ void FlatGrains::bear(Scene& scene, Domain& domain, const FlatTable& table, bool
         domain.near[i] = domain.near.back();
         domain.near.pop_back();
         ++census.born;
-        FlatContacts& contacts = domain.segment(made.contact_class);
+        FlatContacts& contacts = domain.segment(made.contact_class, made.on_plane);
         contacts.add(made.state, made.constants, made.owner, booking_ ? &made.dashpot : nullptr);
         const auto segment = static_cast<size_t>(&contacts - domain.segments.data());
         domain.opened.resize(domain.segments.size());

@@ -70,7 +70,7 @@ void FlatGrains::take_over(Scene& scene, int threads) {
     domains_[0].end = bodies_.spheres();
     for (const Imported& contact : contacts)
         domains_[0]
-            .segment(contact.contact_class)
+            .segment(contact.contact_class, contact.on_plane)
             .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
     moved_ = true;
     forces_published_ = planes_known_ = false;
@@ -169,6 +169,7 @@ FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
     result.owner = {&contact, &geom, &phys};
     result.state.first = index_of_[static_cast<size_t>(contact.getId1())];
     result.state.second = index_of_[static_cast<size_t>(contact.getId2())];
+    result.on_plane = bodies_.is_plane(result.state.first);
     result.state.normal = geom.normal;
     result.state.shear_force = phys.shearElastic;
     result.state.shear_stiffness = phys.ks;
