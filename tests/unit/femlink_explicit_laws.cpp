@@ -202,7 +202,7 @@ TEST(ExplicitLaws, drucker_prager_dilates_by_its_dilatancy) {
     for (const double dilatancy : {0.0, 0.1, 0.45}) {
         m.dilatancy = dilatancy;
         double history[3] = {0, 0, 0};
-        const Eigen::Matrix3d f = Eigen::Vector3d(0.995, 0.995, 0.985).asDiagonal();
+        const Eigen::Matrix3d f = Eigen::Vector3d(1.0098, 1.0098, 0.9798).asDiagonal();
         Symmetric b = packed(f * f.transpose());
         const Symmetric before = half_logarithm(b);
         DruckerPrager(m).stress(b, DruckerPrager::volume(f.determinant()), history);
