@@ -94,7 +94,21 @@ cohesion : float, Pa; friction_angle, dilatancy : float, rad
     Of 'drucker-prager', matched to Mohr and Coulomb in triaxial compression.)")
         .def(py::init(&solid_from), py::arg("young"), py::arg("poisson"), py::arg("density"), py::kw_only(),
              py::arg("law") = "neo-hooke", py::arg("yield_stress") = 0.0, py::arg("hardening") = 0.0,
-             py::arg("cohesion") = 0.0, py::arg("friction_angle") = 0.0, py::arg("dilatancy") = 0.0);
+             py::arg("cohesion") = 0.0, py::arg("friction_angle") = 0.0, py::arg("dilatancy") = 0.0)
+        .def_property_readonly(
+            "numbers",
+            [](const SolidMaterial& s) {
+                return std::vector<double>{static_cast<double>(s.law),
+                                           s.elastic.young,
+                                           s.elastic.poisson,
+                                           s.elastic.density,
+                                           s.yield_stress,
+                                           s.hardening,
+                                           s.cohesion,
+                                           s.friction_angle,
+                                           s.dilatancy};
+            },
+            "Number of the law and the parameters in their order, as an engine keeps them.");
 
     py::class_<ExplicitContinuum>(
         module, "ExplicitContinuum",

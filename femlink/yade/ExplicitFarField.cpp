@@ -39,8 +39,13 @@ fl::SolidMaterials solids_of(const ExplicitFarField& field) {
     for (const vector<Real>& s : field.solids) {
         grainfall::laws::require_length("ExplicitFarField.solids", s.size(), 10, "ten numbers a region");
         const int region = static_cast<int>(s[0]);
-        fl::SolidMaterial solid{
-            static_cast<fl::SolidLaw>(static_cast<int>(s[1])), {s[2], s[3], s[4]}, s[5], s[6], s[7], s[8], s[9]};
+        fl::SolidMaterial solid{static_cast<fl::SolidLaw>(static_cast<int>(s[1])),
+                                {s[2], s[3], s[4]},
+                                s[5],
+                                s[6],
+                                s[7],
+                                s[8],
+                                s[9]};
         fl::validate(solid, "solids[" + std::to_string(region) + "]");
         solids[region] = solid;
     }

@@ -34,7 +34,7 @@ from grainfall.femlink._wall import (
 )
 from grainfall.femlink.cache import cached_wall
 from grainfall.femlink.output import write_vtu
-from grainfall.femlink.scene import add_wall, functors
+from grainfall.femlink.scene import add_explicit_wall, add_wall, functors
 
 __all__ = [
     "ClosestPoint",
@@ -47,6 +47,7 @@ __all__ = [
     "Surface",
     "Wall",
     "WallModel",
+    "add_explicit_wall",
     "add_wall",
     "box",
     "cached_wall",
