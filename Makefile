@@ -6,7 +6,7 @@ CMAKE_OPTIONS ?=
 DEMO_OUTPUT ?= results/demo
 DEMO_OPTIONS ?=
 
-.PHONY: all deps configure build package demo test bench bench-quick bench-wall accuracy install uninstall format format-check clean
+.PHONY: all deps configure build package demo test bench bench-quick bench-wall bench-far-field accuracy install uninstall format format-check clean
 
 all: build
 
@@ -48,6 +48,10 @@ bench-wall: package
 	cmake --build $(BUILD) --target closest_point_cost
 	$(BUILD)/benchmarks/closest_point_cost
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_cost.py
+
+# How near the boundary of a bed may be, with a continuum outside and without: docs/physics/far_field.md. An hour or two.
+bench-far-field: package
+	PYTHONPATH=$(abspath $(BUILD))/python:benchmarks /usr/bin/python3 -m far_field_size.run
 
 # Error against time for every knob that buys accuracy: docs/accuracy.md.
 accuracy: package

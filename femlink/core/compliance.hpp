@@ -152,6 +152,8 @@ private:
 inline Eigen::Matrix3d own_compliance(const Surface& surface, const Eigen::MatrixXd& compliance,
                                       const ContactSite& site) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    if (compliance.size() == 0) // a wall with inertia: no force moves it at once
+        return sum;
     for (std::size_t a = 0; a < site.patch.nodes.size(); ++a) {
         const int row = surface.loose[site.patch.nodes[a]];
         for (std::size_t b = 0; row != Surface::fixed && b < site.patch.nodes.size(); ++b) {

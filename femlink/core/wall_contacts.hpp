@@ -10,6 +10,9 @@
 // which is linear in w: that overlap is solved for, and the same number is handed to the contact law. X and n
 // are those of the point nearest to c on the surface as the last step left it.
 //
+// A wall that grains were settled on (`settle_under`) lies where it is under their forces: of w, the datum,
+// what those forces do to the wall, is taken off.
+//
 // A contact's load stays where it is until the contact has moved by `drift` of the patch's radius, or its
 // normal has turned by more than `turn`: moving it means computing a row of G anew.
 #pragma once
@@ -37,6 +40,10 @@ struct WallTouch {
     Point seen = Point::Zero(), seen_before = Point::Zero(); // m, of the wall, now and a step before
 
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero(); // m/N, compliance of the wall at the site, in its axes
+    Point drift = Point::Zero();                   // m, of `others` in a step between solutions for all
+
+    // m, what the loads of the other contacts do to the wall here, in the site's axes.
+    Eigen::Vector3d others() const { return site.axes.transpose() * seen + own * force; }
 
     bool is_empty() const { return sphere < 0; }
     double overlap() const { return free_overlap + seen.dot(site.axes.col(0)); }
@@ -50,7 +57,7 @@ public:
         : model_(std::make_unique<WallModel>(std::move(model))),
           unloaded_(model_->surface.nodes + model_->preload),
           displacement_(Positions::Zero(3, model_->surface.node_count())), nodal_forces_(displacement_),
-          loaded_(model_->surface, model_->compliance) {}
+          datum_(displacement_), loaded_(model_->surface, model_->compliance) {}
 
     const WallModel& model() const { return *model_; }
     const Surface& surface() const { return model_->surface; }
@@ -58,7 +65,17 @@ public:
     const Positions& unloaded() const { return unloaded_; }
     // m, what contacts add to that.
     const Positions& displacement() const { return displacement_; }
-    Positions positions() const { return unloaded_ + displacement_; }
+    Positions positions() const { return unloaded_ + displacement_ - datum_; }
+    // m, displacement of the nodes that counts as none.
+    const Positions& datum() const { return datum_; }
+    void put_datum(const Positions& datum) { datum_ = datum; }
+
+    // The wall is where it is under the forces that the touches now hold.
+    void settle_under(std::vector<WallTouch>& touches) {
+        auto [sites, forces] = loads(touches);
+        bear(touches, sites, forces);
+        datum_ = displacement_;
+    }
     // N, of the contacts on the wall.
     const Positions& nodal_forces() const { return nodal_forces_; }
     // J, stored by the contacts.
@@ -79,9 +96,14 @@ public:
         if (stays)
             return false;
         const Point force = touch.site.axes * touch.force;
+        const Point left = seen(touch.site);
         touch.anchor = touch.place;
         put_site(touch, patch);
         touch.force = touch.site.axes.transpose() * force;
+        // Another place on the wall, not a motion of the wall.
+        const Point change = seen(touch.site) - left;
+        touch.seen += change;
+        touch.seen_before += change;
         return true;
     }
 
@@ -93,29 +115,40 @@ public:
         touch.own = own_compliance(surface(), model_->compliance, touch.site);
     }
 
-    // m, overlap with the unloaded wall of a sphere whose contact is `place`.
+    // m, overlap with the unloaded wall of a sphere whose contact is `place`, its load at `site`.
+    double free_overlap(const SurfaceContact& place, const ContactSite& site, const Point& centre,
+                        double radius) const {
+        return radius - place.normal.dot(centre - unloaded_point(place)) - seen_displacement(site, datum_)[0];
+    }
+
+    // The same for a contact that has no site yet, the datum taken at its point.
     double free_overlap(const SurfaceContact& place, const Point& centre, double radius) const {
-        return radius - place.normal.dot(centre - unloaded_point(place));
+        const Point here = point_of(place, unloaded_) - point_of(place, datum_);
+        return radius - place.normal.dot(centre - here);
     }
 
     // Solves all contacts; `contacts` in the order of `touches`, empty places included.
     SolverReport solve(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts,
                        const SolverOptions& options) {
-        std::vector<ContactSite> sites;
-        Eigen::VectorXd forces(3 * touches.size());
-        sites.reserve(touches.size());
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            sites.push_back(touches[i].site);
-            forces.segment<3>(3 * i) = touches[i].force;
-        }
+        auto [sites, forces] = loads(touches);
         const SolverReport report = solve_contacts(loaded_.condense(sites), contacts, forces, options);
         bear(touches, sites, forces);
         return report;
     }
 
-    // Between two solutions for all: this contact alone, the displacement under the others' loads held.
+    // After a solution for all, if the next comes in so many steps: what the other contacts do goes to its
+    // new value by then, evenly. `before`: the touch as the step before left it. A wall that jumped there in
+    // one step would hit the contacts' dashpots.
+    void approach(WallTouch& touch, const WallTouch& before, int steps) const {
+        touch.seen = seen(touch.site);
+        touch.drift = touch.site.axes * (touch.others() - before.others()) / steps;
+        touch.seen = before.seen;
+        touch.force = before.force;
+    }
+
+    // Between two solutions for all: this contact alone.
     void solve_alone(WallTouch& touch, LawContact contact, const SolverOptions& options) const {
-        const Eigen::Vector3d others = touch.site.axes.transpose() * touch.seen + touch.own * touch.force;
+        const Eigen::Vector3d others = touch.others() + touch.site.axes.transpose() * touch.drift;
         contact.free_overlap += others[0];
         contact.shift += others.tail<2>();
         Eigen::VectorXd force = touch.force;
@@ -124,15 +157,16 @@ public:
         touch.seen = touch.site.axes * (others - touch.own * touch.force);
     }
 
+    // N, what the touches' forces come to on the nodes.
+    Positions loads_on_nodes(const std::vector<WallTouch>& touches) const {
+        const auto [sites, forces] = loads(touches);
+        return femlink::nodal_forces(surface(), sites, forces);
+    }
+
     // The staggered exchange: the wall under the forces that the law found in the last step, which the
     // touches hold. Returns its gain; from 1 on it diverges.
     double exchange(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts) {
-        std::vector<ContactSite> sites;
-        Eigen::VectorXd forces(3 * touches.size());
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            sites.push_back(touches[i].site);
-            forces.segment<3>(3 * i) = touches[i].force;
-        }
+        const auto [sites, forces] = loads(touches);
         const double gain = staggered_gain(loaded_.condense(sites), contacts);
         bear(touches, sites, forces);
         return gain;
@@ -145,10 +179,24 @@ public:
     Point seen(const ContactSite& site) const { return site.axes * seen_displacement(site, displacement_); }
 
 private:
-    Point unloaded_point(const SurfaceContact& place) const {
+    Point unloaded_point(const SurfaceContact& place) const { return point_of(place, unloaded_); }
+
+    // Interpolates a field on the nodes.
+    Point point_of(const SurfaceContact& place, const Positions& field) const {
         const Surface& s = surface();
-        return s.degree == 1 ? face_frame<1>(s.face<1>(place.face, unloaded_), place.at).y
-                             : face_frame<2>(s.face<2>(place.face, unloaded_), place.at).y;
+        return s.degree == 1 ? face_frame<1>(s.face<1>(place.face, field), place.at).y
+                             : face_frame<2>(s.face<2>(place.face, field), place.at).y;
+    }
+
+    static std::pair<std::vector<ContactSite>, Eigen::VectorXd> loads(const std::vector<WallTouch>& touches) {
+        std::vector<ContactSite> sites;
+        Eigen::VectorXd forces(3 * touches.size());
+        sites.reserve(touches.size());
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            sites.push_back(touches[i].site);
+            forces.segment<3>(3 * i) = touches[i].force;
+        }
+        return {std::move(sites), std::move(forces)};
     }
 
     void bear(std::vector<WallTouch>& touches, const std::vector<ContactSite>& sites,
@@ -160,7 +208,7 @@ private:
     }
 
     std::unique_ptr<WallModel> model_; // at a fixed address: loaded_ refers to it
-    Positions unloaded_, displacement_, nodal_forces_;
+    Positions unloaded_, displacement_, nodal_forces_, datum_;
     LoadedCompliance loaded_;
 };
 

@@ -2,6 +2,7 @@
 #include <femlink/yade/FemWall.hpp>
 
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
+#include <femlink/yade/ExplicitFarField.hpp>
 #include <femlink/yade/Ig2_FemFace_Sphere_ScGeom.hpp>
 #include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
@@ -23,6 +24,13 @@ CREATE_LOGGER(FemWall);
 namespace fl = grainfall::femlink;
 
 namespace {
+
+vector<Vector3r> list_of(const fl::Positions& columns) {
+    vector<Vector3r> list;
+    for (Eigen::Index i = 0; i < columns.cols(); ++i)
+        list.push_back(columns.col(i));
+    return list;
+}
 
 constexpr size_t nowhere = static_cast<size_t>(-1);
 
@@ -58,11 +66,21 @@ void FemWall::validate() const {
         reject("FemWall.maxSweeps", maxSweeps, ">= 1");
     for (int axis = 0; axis < 3; ++axis)
         require_finite("FemWall.velocity", velocity[axis]);
+    if (continuum && velocity != Vector3r::Zero())
+        reject("FemWall.velocity", velocity.norm(), "0 with a continuum that has inertia");
 }
 
 void FemWall::postLoad(FemWall&) {
     validate();
     wall_.reset();
+    if (continuum) {
+        fl::WallModel model;
+        model.surface = continuum->continuum().surface();
+        model.preload = fl::Positions::Zero(3, model.surface.node_count());
+        wall_ = std::make_unique<fl::QuasiStaticWall>(std::move(model));
+        restore();
+        return;
+    }
     if (file.empty())
         return;
     fl::WallModel model = fl::load_wall(file);
@@ -86,13 +104,16 @@ void FemWall::restore() {
         return out;
     };
     wall_->put(columns(savedDisplacement), columns(savedForces));
+    wall_->put_datum(columns(datum));
+    glide_start_ = columns(savedGlideStart);
+    load_sum_ = columns(savedLoadSum);
     restored_ = true;
     for (size_t i = 0; i < savedTouches.size() && i < savedNumbers.size(); ++i) {
         fl::WallTouch touch;
         Partner partner;
         const vector<Real>& numbers = savedNumbers[i];
         touch.sphere = savedTouches[i][0];
-        if (!touch.is_empty() && numbers.size() == 14) {
+        if (!touch.is_empty() && numbers.size() == 17) {
             const auto three = [&](size_t at) {
                 return Vector3r(numbers[at], numbers[at + 1], numbers[at + 2]);
             };
@@ -103,7 +124,8 @@ void FemWall::restore() {
             wall_->put_site(touch, patch);
             touch.force = three(5);
             touch.seen = three(8);
-            partner.velocity = three(11);
+            touch.drift = three(11);
+            partner.velocity = three(14);
         }
         touches_.push_back(touch);
         partners_.push_back(partner);
@@ -117,6 +139,8 @@ void FemWall::preSave(FemWall&) {
     savedNumbers.clear();
     if (!wall_)
         return;
+    savedGlideStart = list_of(glide_start_);
+    savedLoadSum = list_of(load_sum_);
     wall_->forget_matrix(); // so that this run goes on as the saved one will, to the last bit
     for (int i = 0; i < wall_->surface().node_count(); ++i) {
         savedDisplacement.push_back(wall_->displacement().col(i));
@@ -127,7 +151,7 @@ void FemWall::preSave(FemWall&) {
         savedTouches.emplace_back(touch.sphere, touch.place.face, touch.anchor.face);
         vector<Real> numbers = {touch.anchor.at[0], touch.anchor.at[1]};
         for (const Vector3r& three :
-             {touch.anchor.normal, Vector3r(touch.force), touch.seen, partners_[i].velocity})
+             {touch.anchor.normal, Vector3r(touch.force), touch.seen, touch.drift, partners_[i].velocity})
             numbers.insert(numbers.end(), three.data(), three.data() + 3);
         savedNumbers.push_back(numbers);
     }
@@ -246,6 +270,8 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
     compare_with_law();
     if (preparedStep >= 0)
         shift += scene->dt * velocity;
+    if (continuum && preparedStep >= 0)
+        move_continuum();
     const Vector3r force_before = force;
     for (fl::WallTouch& touch : touches_)
         touch.seen_before = touch.seen;
@@ -259,7 +285,7 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
 
 /// Before the forces of the last step are overwritten.
 void FemWall::compare_with_law() {
-    if (coupling != "implicit")
+    if (coupling != "implicit" || continuum)
         return;
     Real largest = 0, difference = 0;
     for (size_t i = 0; i < touches_.size(); ++i) {
@@ -360,7 +386,8 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     const vector<fl::SurfaceContact> found =
         fl::surface_contacts(wall_->surface(), positions_, near, held, centre, reach);
     const auto takes_part = [&](const fl::SurfaceContact& contact, bool is_real) {
-        return is_real || contact.distance < radius || wall_->free_overlap(contact, centre, radius) > 0;
+        return is_real || contact.distance < radius ||
+               (!continuum && wall_->free_overlap(contact, centre, radius) > 0);
     };
     vector<char> placed(found.size(), 0);
     for (size_t k = 0; k < found.size(); ++k) { // where they were
@@ -410,13 +437,13 @@ void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePa
     fl::WallTouch& touch = touches_[place];
     Partner& partner = partners_[place];
     touch.place = found;
-    if (wall_->follow(touch, patch, drift))
-        touch.seen_before = wall_->seen(touch.site);
+    wall_->follow(touch, patch, drift);
     partner.contact = pair.contact;
     partner.face = pair.face;
     partner.sphere = pair.sphere;
     partner.found = true;
-    touch.free_overlap = wall_->free_overlap(found, pair.sphere->state->pos - shift, radius_of(place));
+    touch.free_overlap =
+        wall_->free_overlap(found, touch.site, pair.sphere->state->pos - shift, radius_of(place));
 }
 
 /// Their stiffness is needed before the loop would have made them. A touch may be no contact: one that has
@@ -441,7 +468,8 @@ void FemWall::make_new_contacts_real(FunctorLists& lists) {
     }
 }
 
-fl::LawContact FemWall::law_contact(size_t place) const {
+/// `steps`: in which the wall goes where the solution puts it, which the dashpots must know.
+fl::LawContact FemWall::law_contact(size_t place, int steps) const {
     fl::LawContact out;
     const fl::WallTouch& touch = touches_[place];
     if (touch.is_empty())
@@ -455,9 +483,10 @@ fl::LawContact FemWall::law_contact(size_t place) const {
     const Vector3r shift_seen = -moved - touch.seen_before;
     out.free_overlap = touch.free_overlap;
     out.shift = {shift_seen.dot(axes.col(1)), shift_seen.dot(axes.col(2))};
-    out.relation.rate = 1 / scene->dt;
+    const Real span = steps * scene->dt;
+    out.relation.rate = 1 / span;
     out.relation.idle_overlap =
-        touch.free_overlap + touch.seen_before.dot(normal) + scene->dt * (state.vel - velocity).dot(normal);
+        touch.free_overlap + touch.seen_before.dot(normal) + span * (state.vel - velocity).dot(normal);
     Vector3r shear = Vector3r::Zero();
     if (const auto* grain = dynamic_cast<const GrainPhys*>(partner.contact->phys.get())) {
         const auto* law = Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(*scene);
@@ -492,9 +521,15 @@ fl::LawContact FemWall::law_contact(size_t place) const {
 
 /// All contacts together, or, between two such solutions, each alone.
 void FemWall::solve(bool together) {
+    if (continuum) {
+        see_continuum();
+        return;
+    }
+    const bool in_between = coupling == "implicit" && interval > 1;
+    const vector<fl::WallTouch> before = together && in_between ? touches_ : vector<fl::WallTouch>();
     vector<fl::LawContact> laws;
     for (size_t i = 0; i < touches_.size(); ++i)
-        laws.push_back(law_contact(i));
+        laws.push_back(law_contact(i, together && in_between ? interval : 1));
     const fl::SolverOptions options{tolerance, maxSweeps};
     if (together) {
         if (coupling == "implicit")
@@ -511,10 +546,12 @@ void FemWall::solve(bool together) {
         fl::WallTouch& touch = touches_[i];
         if (touch.is_empty())
             continue;
-        if (together)
+        if (together && in_between)
+            wall_->approach(touch, before[i], interval);
+        else if (together)
             touch.seen = wall_->seen(touch.site);
-        else if (coupling == "implicit")
-            wall_->solve_alone(touch, laws[i], options);
+        if (in_between)
+            wall_->solve_alone(touch, together ? law_contact(i) : laws[i], options);
         const Vector3r push = touch.site.axes * touch.force;
         partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
         force -= push;
@@ -537,15 +574,50 @@ void FemWall::solve_together(const vector<fl::LawContact>& laws, const fl::Solve
                                  " sweeps: raise maxSweeps");
 }
 
+/// Moves on to the present time. In every `interval`-th step under the mean of the forces since the last; the
+/// surface goes there evenly in between.
+void FemWall::move_continuum() {
+    read_law_forces();
+    load_sum_ += wall_->loads_on_nodes(touches_);
+    ++loadsSummed;
+    fl::ExplicitContinuum& body = continuum->continuum();
+    if (glideStep == 0) {
+        glide_start_ = wall_->displacement();
+        body.advance(interval * scene->dt, load_sum_ / loadsSummed);
+        if (scene->trackEnergy) {
+            const fl::ExplicitEnergies energies = body.energies();
+            storedEnergy = energies.kinetic + energies.elastic + energies.hourglass + energies.ground;
+            dissipatedEnergy = energies.plastic + energies.absorbed;
+        }
+        load_sum_.setZero();
+        loadsSummed = 0;
+    }
+    ++glideStep;
+    const Real share = static_cast<Real>(glideStep) / interval;
+    wall_->put(glide_start_ + share * (body.surface_displacement() - glide_start_), wall_->nodal_forces());
+    if (glideStep >= interval)
+        glideStep = 0;
+}
+
+/// Contacts on the surface as it now lies; the law's forces of this step move it in the next.
+void FemWall::see_continuum() {
+    force = Vector3r::Zero();
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        fl::WallTouch& touch = touches_[i];
+        if (touch.is_empty())
+            continue;
+        touch.seen = wall_->seen(touch.site);
+        partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
+        force -= touch.site.axes * touch.force;
+    }
+    solvedStep = scene->iter;
+    positions_ = wall_->positions();
+    largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
+}
+
 /// The report's exchange: the law's forces of the last step displace the wall of this one.
 void FemWall::exchange(const vector<fl::LawContact>& laws) {
-    for (size_t i = 0; i < touches_.size(); ++i) {
-        const auto* phys = touches_[i].is_empty()
-                               ? nullptr
-                               : dynamic_cast<const FrictPhys*>(partners_[i].contact->phys.get());
-        if (phys)
-            touches_[i].force = touches_[i].site.axes.transpose() * (phys->normalForce + phys->shearForce);
-    }
+    read_law_forces();
     const Real gain = wall_->exchange(touches_, laws);
     if (gain >= 1)
         grainfall::laws::reject(
@@ -553,6 +625,19 @@ void FemWall::exchange(const vector<fl::LawContact>& laws) {
             "'implicit' here: the contacts' stiffness times the wall's compliance is " +
                 std::to_string(gain) +
                 ", and exchanging forces step by step diverges from 1 on, whatever the time step");
+}
+
+/// Those of the last step into the touches.
+void FemWall::read_law_forces() {
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        if (touches_[i].is_empty())
+            continue;
+        const shared_ptr<Interaction>& contact = partners_[i].contact;
+        const auto* phys = contact ? dynamic_cast<const FrictPhys*>(contact->phys.get()) : nullptr;
+        touches_[i].force = Vector3r::Zero();
+        if (phys)
+            touches_[i].force = touches_[i].site.axes.transpose() * (phys->normalForce + phys->shearForce);
+    }
 }
 
 FaceTouch FemWall::face_touch(size_t place) const {
@@ -580,7 +665,7 @@ void FemWall::write_faces() {
         for (size_t k = 0; k < shape.nodes.size(); ++k) {
             const int node = surface.faces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(f));
             shape.nodes[k] = positions_.col(node) + shift;
-            shape.unloaded[k] = wall_->unloaded().col(node) + shift;
+            shape.unloaded[k] = wall_->unloaded().col(node) - wall_->datum().col(node) + shift;
         }
         moved |= shape.has_left_bound();
     }

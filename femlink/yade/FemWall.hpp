@@ -16,6 +16,7 @@
 
 #include <engines/flat/yade/functor_lists.hpp>
 #include <femlink/core/wall_contacts.hpp>
+#include <femlink/yade/ExplicitFarField.hpp>
 #include <femlink/yade/FemFace.hpp>
 #include <laws/yade/attribute_checks.hpp>
 
@@ -50,9 +51,10 @@ public:
     void prepare_in_scene();
     bool has_face(const Body& body);
 
-    Real stored_energy() const { return storedEnergy; }
-    /// J that moving the outer boundary has supplied.
-    Real supplied_energy() const { return boundaryWork; }
+    /// Contacts that the wall's place had before it stood there (faces by body id, shear forces on the
+    /// spheres): its faces take them over, and it is where it is under their forces.
+    void take_over(const vector<int>& face_ids, const vector<int>& spheres, const vector<Vector3r>& shear);
+
     boost::python::list node_positions();
     boost::python::list node_displacements();
     boost::python::list node_forces();
@@ -68,9 +70,10 @@ public:
         ((string, file, "", Attr::readonly, "Wall file (grainfall.femlink.WallModel.save) with surface and compliance."))
         ((string, key, "", Attr::readonly, "Key of the wall in the file: of mesh, materials and loads."))
         ((vector<int>, faces, , Attr::readonly, "Ids of the bodies that are its faces, in their order in the file."))
+        ((shared_ptr<ExplicitFarField>, continuum, , Attr::readonly, "Continuum with inertia, in the place of a file; None for a quasi-static wall."))
         ((string, coupling, "implicit", , "'implicit': forces and displacement of a step are solved for together, stable for any stiffness; 'staggered': the wall takes the forces of the step before, as "
           "in the report; refused where that must diverge."))
-        ((int, interval, 1, , "Solve for all contacts together in every n-th step [-], >= 1. In between each contact is solved alone, what the others do to the wall there held."))
+        ((int, interval, 1, , "Solve for all contacts together in every n-th step [-], >= 1. In between each contact is solved alone, what the others do to the wall there going evenly to what the last such solution found."))
         ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
         ((Real, drift, 0.002, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
         ((Real, tolerance, 1e-6, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
@@ -85,12 +88,18 @@ public:
         ((Real, boundaryWork, 0, Attr::readonly, "Work [J] that moving the outer boundary has supplied."))
         ((Real, storedEnergy, 0, Attr::readonly, "Strain energy that the contacts have put into the wall [J]."))
         ((Vector3r, force, Vector3r::Zero(), Attr::readonly, "Sum of the contact forces on the wall in the last step [N]."))
+        ((vector<Vector3r>, datum, , Attr::readonly, "Displacement [m] of the nodes that counts as none: that under the forces which :yref:`takeOver<FemWall.takeOver>` found. Empty: zero."))
         ((long, preparedStep, -1, Attr::hidden, "Last step that contacts were looked for in."))
         ((long, solvedStep, -1, Attr::hidden, "Last step that the wall was solved for."))
+        ((Real, dissipatedEnergy, 0, Attr::readonly, "Energy [J] that a continuum with inertia has lost to plastic flow and through its absorbing boundary."))
+        ((int, glideStep, 0, Attr::hidden, "Steps since the continuum was moved on."))
+        ((int, loadsSummed, 0, Attr::hidden, "Steps in savedLoadSum."))
+        ((vector<Vector3r>, savedGlideStart, , Attr::hidden, "Displacement of the nodes when the continuum was moved on."))
+        ((vector<Vector3r>, savedLoadSum, , Attr::hidden, "Sum of the nodes' forces since then."))
         ((vector<Vector3r>, savedDisplacement, , Attr::hidden, "Of the nodes, at the last step."))
         ((vector<Vector3r>, savedForces, , Attr::hidden, "On the nodes, at the last step."))
         ((vector<Vector3i>, savedTouches, , Attr::hidden, "Sphere, face of the contact and face of its anchor; -1 for an empty place."))
-        ((vector<vector<Real>>, savedNumbers, , Attr::hidden, "Of each contact: anchor (2), its normal, force, what it sees of the wall, velocity of the wall (3 each)."))
+        ((vector<vector<Real>>, savedNumbers, , Attr::hidden, "Of each contact: anchor (2), its normal, force, what it sees of the wall, its drift, velocity of the wall (3 each)."))
         ,
         ,
         .def(CheckedAttributes<FemWall>().add("coupling", &FemWall::coupling).add("interval", &FemWall::interval)
@@ -100,6 +109,9 @@ public:
         .def("nodeDisplacements", &FemWall::node_displacements, "What the contacts add to the nodes' places [m].")
         .def("nodeForces", &FemWall::node_forces, "Forces of the contacts on the nodes [N].")
         .def("faceNodes", &FemWall::face_nodes, "Nodes of each face.")
+        .def("takeOver", &FemWall::take_over, (boost::python::arg("faces"), boost::python::arg("spheres"), boost::python::arg("shear")),
+             "Before the first step, O.engines and O.dt set: these spheres touch these faces (body ids) already, with these elastic shear forces on the spheres [N], as in the rigid "
+             "container where they came to rest. The wall is taken to be where it is under their forces, so that they stay at rest (:yref:`datum<FemWall.datum>`).")
         .def("touches", &FemWall::touches_now,
              "Contacts of the last step: dicts with sphere (body id), face (body id), reference (on the face, -1 to 1), point [m], normal, overlap [m], force on the sphere [N], "
              "displacement of the wall there [m].")
@@ -124,6 +136,7 @@ private:
     vector<Partner> partners_;
     grainfall::femlink::Positions positions_; // of the surface's nodes, without `shift`
     Real largest_displacement_ = 0;
+    grainfall::femlink::Positions glide_start_, load_sum_;
     std::map<Body::id_t, vector<size_t>> places_; // in touches_, by sphere
     bool restored_ = false;                       // interactions not known yet
     FunctorLists lists_;                          // on YADE's own loop
@@ -142,12 +155,16 @@ private:
     void forget_touch(size_t place);
     void follow(size_t place, const grainfall::femlink::SurfaceContact& found, const FacePair& pair);
     void make_new_contacts_real(FunctorLists& lists);
-    grainfall::femlink::LawContact law_contact(size_t place) const;
+    grainfall::femlink::LawContact law_contact(size_t place, int steps = 1) const;
     void carry(Interaction& from, Interaction& to) const;
     void solve(bool together);
     void solve_together(const vector<grainfall::femlink::LawContact>& laws,
                         const grainfall::femlink::SolverOptions& options);
+    void move_continuum();
+    void see_continuum();
+    void read_law_forces();
     void exchange(const vector<grainfall::femlink::LawContact>& laws);
+    void settle();
     void write_faces();
     FaceTouch face_touch(size_t place) const;
     Real radius_of(size_t place) const;

@@ -21,8 +21,14 @@ def add_bed(bed: Bed, sand: Any, wall: Any) -> None:
     sand, wall : GrainMat
         Materials of grains and of the box.
     """
+    add_grains(bed, sand, wall)
+    O.bodies.append(box_walls(bed.spec, wall))
+
+
+def add_grains(bed: Bed, sand: Any, wall: Any) -> None:
+    """Add the grains and both materials to an empty scene; grain i becomes body i."""
     if len(O.bodies) > 0:
-        raise RuntimeError("add_bed needs an empty scene: call O.reset() first")
+        raise RuntimeError("a bed needs an empty scene: call O.reset() first")
     O.materials.append([sand, wall])
     O.bodies.append(
         [
@@ -30,15 +36,19 @@ def add_bed(bed: Bed, sand: Any, wall: Any) -> None:
             for centre, radius in zip(bed.centres.tolist(), bed.radii.tolist())
         ]
     )
-    O.bodies.append(box_walls(bed.spec, wall))
+
+
+def wall_planes(spec: BedSpec) -> tuple[tuple[float, int, int], ...]:
+    """Position [m], axis and inward sense of the walls -x, +x, -y, +y and the floor."""
+    x, y = spec.length / 2, spec.width / 2
+    return ((-x, 0, 1), (x, 0, -1), (-y, 1, 1), (y, 1, -1), (0.0, 2, 1))
 
 
 def box_walls(spec: BedSpec, material: Any) -> list[Any]:
     """Walls -x, +x, -y, +y and the floor, each facing inwards."""
-    x, y = spec.length / 2, spec.width / 2
-    planes = ((-x, 0, 1), (x, 0, -1), (-y, 1, 1), (y, 1, -1), (0.0, 2, 1))
     return [
-        utils.wall(position, axis, sense, material=material) for position, axis, sense in planes
+        utils.wall(position, axis, sense, material=material)
+        for position, axis, sense in wall_planes(spec)
     ]
 
 

@@ -189,6 +189,7 @@ def contact_loop(
     geometry: list[Any],
     path: str = "flat",
     blind: Sequence[str] = (),
+    laws: Sequence[Any] = (),
 ) -> Any:
     """Interaction loop of our law for spheres, walls and whatever `geometry` adds.
 
@@ -202,6 +203,8 @@ def contact_loop(
         'flat': GrainInteractionLoop, in packed arrays; 'general': YADE's own InteractionLoop.
     blind : sequence of str
         Labels of engines that look at no grain: the flat path publishes nothing for them.
+    laws : sequence of LawFunctor
+        For geometries that `geometry` makes beside ScGeom.
     """
     w = yade.wrapper
     functors = (
@@ -210,7 +213,8 @@ def contact_loop(
         [
             w.Law2_ScGeom_GrainPhys_HertzMindlin(
                 normalLaw=sand.normal_law, tangentialLaw=sand.tangential_law, label="contact_law"
-            )
+            ),
+            *laws,
         ],
     )
     if path == "general":

@@ -260,8 +260,9 @@ void EnergyLedger::balance() {
     values[Term::potential] = motion[2];
     values[Term::imposed_motion] = works[0] + broughtKinetic;
     for (const FemWall* wall : fem_walls(*scene)) {
-        values[Term::far_field] += wall->stored_energy();
-        values[Term::imposed_motion] += wall->supplied_energy();
+        values[Term::far_field] += wall->storedEnergy;
+        values[Term::far_field_dissipation] += wall->dissipatedEnergy;
+        values[Term::imposed_motion] += wall->boundaryWork;
     }
     values[Term::permanent_load] = works[2];
     values[Term::numerical_damping] = 0 - works[4];

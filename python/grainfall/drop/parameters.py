@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from grainfall.drop import far_field_options
 from grainfall.drop.checks import CHECKS
 from grainfall.options import Option, OptionTable
 from grainfall.run_notes import ENERGY_LIMIT
@@ -214,9 +215,10 @@ TABLE = OptionTable(
         "sand": SAND,
         "projectile": PROJECTILE,
         "box and bed": BED,
+        "far field": far_field_options.FAR_FIELD,
         "numerics": NUMERICS,
     },
     PRESETS,
-    CHECKS,
+    (*far_field_options.CHECKS, *CHECKS),
     prog="drop_test.py",
 )

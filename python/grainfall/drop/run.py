@@ -8,7 +8,7 @@ import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import yade.timing
@@ -30,9 +30,14 @@ from grainfall.projectile_mesh import outline
 from grainfall.running import advance
 from grainfall.wall_clock import Clock
 
+if TYPE_CHECKING:
+    from grainfall.drop.far_field_record import FarFieldRecord
+
 STATE, PARAMETERS, BED, EARLIER = "state.yade.gz", "parameters.json", "bed.h5", "earlier_parts.json"
 #: The nose has come to rest when it sinks slower than the rest speed over this time [s].
 REST_DURATION = 10e-3
+#: At most this long the run is left alone [s].
+LOOK_INTERVAL = REST_DURATION / 5
 
 
 def drop_test(**given: Any) -> dict[str, Any]:
@@ -79,6 +84,8 @@ class DropRun:
         self.resumed = resumed
         self.clock = Clock()
         self.bed_was_cached = False
+        #: Of the continuum around the bed; None where the box is rigid.
+        self.far_field: FarFieldRecord | None = None
         #: What the earlier parts of a resumed run spent and saw.
         self.earlier: dict[str, Any] = {"wall_seconds": 0.0, "price": {}, "largest_overlap": 0.0}
         self.interrupted = False
@@ -90,6 +97,8 @@ class DropRun:
         self.trace = traces.Trace(self.folder, projectile_id(bed), bed.surface)
         if self.resumed:
             self.trace.load(until=O.time)
+            if self.far_field:
+                self.far_field.load(until=O.time)
         self.snapshots = self._snapshots(bed)
         self.snapshots.largest_relative_overlap = self.earlier["largest_overlap"]
         traces.set_current(self.trace)
@@ -120,7 +129,11 @@ class DropRun:
         (self.folder / PARAMETERS).write_text(text)
         save_bed(bed, self.folder / BED)
         self.clock.lap("bed preparation")
-        build_scene(self.parameters, bed)
+        continuum = build_scene(self.parameters, bed)
+        if continuum:
+            from grainfall.drop.far_field_record import FarFieldRecord
+
+            self.far_field = FarFieldRecord.begin(self.folder, continuum)
         for warning in filter(None, [*check_scene(), unrest(bed.report)]):
             print(f"warning: {warning}", file=sys.stderr)
         self.clock.lap("scene")
@@ -133,6 +146,10 @@ class DropRun:
         if (self.folder / EARLIER).exists():
             self.earlier = json.loads((self.folder / EARLIER).read_text())
         O.load(str(self.folder / STATE), quiet=True)
+        if self.parameters["far_field"] != "rigid":
+            from grainfall.drop.far_field_record import FarFieldRecord
+
+            self.far_field = FarFieldRecord(self.folder)
         return bed
 
     def _snapshots(self, bed: Bed) -> Snapshots:
@@ -148,16 +165,14 @@ class DropRun:
         next_snapshot = O.time if p["vtk_interval"] else float("inf")
         next_checkpoint = O.time + p["checkpoint_interval"]
         try:
-            while O.time < p["duration"] and not self._at_rest():
+            while O.time < p["duration"] and not self._at_rest() and not self._at_far_field():
                 if O.time >= next_snapshot:
-                    self.snapshots.write(self._touch())
+                    self._snapshot()
                     next_snapshot += p["vtk_interval"]
                 if O.time >= next_checkpoint:
                     self._checkpoint()
                     next_checkpoint += p["checkpoint_interval"]
-                goal = min(
-                    p["duration"], next_snapshot, next_checkpoint, O.time + REST_DURATION / 5
-                )
+                goal = min(p["duration"], next_snapshot, next_checkpoint, O.time + LOOK_INTERVAL)
                 self._advance(max(1, round((goal - O.time) / O.dt)))
                 progress.update(O.time / p["duration"], self._state())
         except KeyboardInterrupt:
@@ -165,12 +180,17 @@ class DropRun:
         else:
             progress.update(1.0, self._state())
             if p["vtk_interval"]:
-                self.snapshots.write(self._touch())
+                self._snapshot()
         progress.close()
+
+    def _snapshot(self) -> None:
+        self.snapshots.write(self._touch(), self.far_field and self.far_field.added_forces())
 
     def _advance(self, steps: int) -> None:
         """Run so many steps and see that the projectile is still there."""
         advance(steps)
+        if self.far_field:
+            self.far_field.sample()
         if self.trace.rows and not np.isfinite(self.trace.rows[-1][1]):
             raise FloatingPointError(
                 "the projectile's position is not a number: reduce --dt-safety or --time-step"
@@ -192,6 +212,12 @@ class DropRun:
         in_contact = before is not None and before[8] > 0
         return in_contact and now[1] - before[1] < self.parameters["rest_speed"] * REST_DURATION
 
+    def _at_far_field(self) -> bool:
+        """Would the projectile reach the continuum before the next look?"""
+        return self.far_field is not None and self.far_field.is_reached(
+            self.parameters, self.trace.body, 1.5 * LOOK_INTERVAL
+        )
+
     def _state(self) -> str:
         if not self.trace.rows:
             return ""
@@ -201,6 +227,8 @@ class DropRun:
     def _checkpoint(self) -> None:
         """Save trace and scene; the old state is replaced only once the new one is whole."""
         self.trace.flush()
+        if self.far_field:
+            self.far_field.flush()
         partial = self.folder / f"partial-{STATE}"
         O.save(str(partial), quiet=True)
         os.replace(partial, self.folder / STATE)
@@ -217,6 +245,10 @@ class DropRun:
         (self.folder / EARLIER).write_text(json.dumps(spent, indent=1))
         (self.folder / "summary.json").write_text(json.dumps(summary, indent=1) + "\n")
         self.trace.write_hdf5()
+        if self.far_field:
+            from grainfall.drop.far_field_files import write_far_field_files
+
+            write_far_field_files(self.folder, self.far_field.continuum)
         if not self.parameters["no_plots"]:
             from grainfall.report import write_report
 

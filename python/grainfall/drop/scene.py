@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yade.wrapper
 from yade import O, Quaternion
@@ -17,6 +17,9 @@ from grainfall.constants import GRAVITY
 from grainfall.contacts import Sand, contact_loop, integrator, rayleigh_step
 from grainfall.drop.trace import ENERGY_EVERY
 from grainfall.projectiles import make_projectile, projectile
+
+if TYPE_CHECKING:
+    from grainfall.drop.far_field import Continuum
 
 #: The projectile starts this many mean grain diameters above the highest grain.
 CLEARANCE_DIAMETERS = 0.5
@@ -60,19 +63,35 @@ def time_step(parameters: Mapping[str, Any], bed: Bed) -> float:
     return parameters["dt_safety"] * rayleigh
 
 
-def build_scene(parameters: Mapping[str, Any], bed: Bed) -> None:
-    """Fill an empty scene: bodies, engines, step. Labels: see `_engines`."""
+def build_scene(parameters: Mapping[str, Any], bed: Bed) -> Continuum | None:
+    """Fill an empty scene: bodies, engines, step. Labels: see `_engines`. What is around the box, unless rigid."""
     p = parameters
     sand = Sand.of(p)
     O.reset()
     wall = sand.material(
         "wall", friction=p["wall_friction"], referenceRadius=0.0, gravimetricMoisture=0.0
     )
+    if p["far_field"] != "rigid":
+        return _build_in_continuum(p, bed, sand, wall)
     add_bed(bed, sand.material("sand"), wall)
     O.bodies.append(_projectile(p, bed))
     O.engines = _engines(p, sand, bed)
     O.dt = time_step(p, bed)
     restore_contacts(bed)
+    return None
+
+
+def _build_in_continuum(p: Mapping[str, Any], bed: Bed, sand: Sand, wall: Any) -> Continuum:
+    """The same in a deformable far field."""
+    from grainfall.drop import far_field
+
+    continuum, model = far_field.add_bed_in_continuum(p, bed, sand.material("sand"), wall)
+    O.bodies.append(_projectile(p, bed))
+    engine = far_field.add_faces(p, model)
+    O.engines = _engines(p, sand, bed, engine)
+    O.dt = time_step(p, bed)
+    far_field.restore_contacts_on_faces(bed, engine, model)
+    return continuum
 
 
 def _projectile(p: Mapping[str, Any], bed: Bed) -> Any:
@@ -103,13 +122,19 @@ def _projectile(p: Mapping[str, Any], bed: Bed) -> Any:
     )
 
 
-def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
+def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed, wall: Any = None) -> list[Any]:
     """Engines in YADE's order; the recorder stands where forces and positions belong to one moment."""
     w = yade.wrapper
     # At 0.15 R the collider runs about every ten steps while the projectile is fast.
     verlet = 0.15 * float(bed.radii.min())
     bounds = [w.Bo1_Sphere_Aabb(), w.Bo1_Wall_Aabb(), w.Bo1_SolidOfRevolution_Aabb()]
     contact = [w.Ig2_SolidOfRevolution_Sphere_ScGeom(), w.Ig2_Wall_SolidOfRevolution_ScGeom()]
+    laws: list[Any] = []
+    if wall is not None:
+        from grainfall.drop.far_field import functors
+
+        for functor_list, more in zip((bounds, contact, laws), functors()):
+            functor_list += more
     on_projectile = {
         "friction": p["projectile_friction"],
         "restitution": p["projectile_restitution"],
@@ -127,7 +152,8 @@ def _engines(p: Mapping[str, Any], sand: Sand, bed: Bed) -> list[Any]:
     engines = [
         w.ForceResetter(label="force_resetter"),
         w.InsertionSortCollider(bounds, verletDist=verlet, label="collider"),
-        contact_loop(sand, pairs, contact, p["path"], blind=["recorder"]),
+        *([wall] if wall is not None else []),
+        contact_loop(sand, pairs, contact, p["path"], blind=["recorder"], laws=laws),
         *stepper,
         w.ProjectileLoad(body=projectile_id(bed), label="projectile_load"),
         w.PyRunner(command=command.format("record"), label="recorder", **rate),

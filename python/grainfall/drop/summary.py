@@ -64,8 +64,10 @@ def make_summary(run: DropRun, bed: Bed) -> dict[str, Any]:
         summary["water"] = water_budget()
     summary["price"] = engine_seconds(run.clock, "drop", run.earlier["price"])
     summary["bed"] = {**bed.report, "from_cache": run.bed_was_cached}
+    if run.far_field:
+        summary["far_field"] = run.far_field.summary(p["far_field_interval"])
     summary["parameters"] = dict(p)
-    summary["notes"] = notes(summary)
+    summary["notes"] = notes(summary) + (run.far_field.notes() if run.far_field else [])
     return summary
 
 

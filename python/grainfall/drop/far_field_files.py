@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The continuum at the moments of a run's snapshots for ParaView, made after the run from the files in its folder.
+
+deal.II is loaded here, not while the run goes on. One file, ``vtk/scene.pvd``, shows grains, contacts, projectile and
+continuum together.
+"""
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from grainfall.drop.far_field import Continuum
+
+#: Files of a moment, by what stands behind its time in their names.
+PARTS = ("spheres", "contacts", "projectile", "far-field")
+
+
+def write_far_field_files(folder: Path, continuum: Continuum) -> None:
+    """Write ``vtk/*-far-field.vtu``: displacement and stress that the drop has added, and ``vtk/scene.pvd``.
+
+    Moments whose file is there already are left as they are.
+    """
+    moments = sorted(
+        path for path in (folder / "snapshots").glob("*.npz") if not _file(folder, path).exists()
+    )
+    if moments:
+        from grainfall import femlink
+
+        field = femlink.Continuum(continuum.mesh(), continuum.materials(), continuum.degree)
+        for path in moments:
+            forces = np.load(path)["far_field_forces"]
+            field.write_vtu(
+                str(_file(folder, path)), field.solve(surface_forces=forces), _seconds(path.stem)
+            )
+    _write_collection(folder / "vtk")
+
+
+def _file(folder: Path, snapshot: Path) -> Path:
+    return folder / "vtk" / f"{snapshot.stem}-far-field.vtu"
+
+
+def _seconds(name: str) -> float:
+    """Time that a snapshot's name states [s]."""
+    return int(name[:9]) * 1e-6
+
+
+def _write_collection(folder: Path) -> None:
+    """All parts of all moments in one ParaView collection."""
+    lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1"><Collection>']
+    for path in sorted(folder.glob("*us-*.vt[up]")):
+        part = next((part for part in PARTS if part in path.name), None)
+        if part is not None:
+            where = f'part="{PARTS.index(part)}" name="{part}" file="{path.name}"'
+            lines.append(f'<DataSet timestep="{_seconds(path.name)}" {where}/>')
+    lines.append("</Collection></VTKFile>")
+    (folder / "scene.pvd").write_text("\n".join(lines) + "\n", encoding="ascii")
