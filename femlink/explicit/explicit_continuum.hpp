@@ -64,6 +64,10 @@ public:
     const Positions& nodes() const { return rest_; }                         // at rest, m
     const Positions& surface_displacement() const { return surface_displacement_; }
     const Positions& displacement() const { return displacement_; }
+    // kg, lumped at a node of the surface.
+    double surface_mass(int node) const {
+        return mass_[static_cast<std::size_t>(surface_nodes_[static_cast<std::size_t>(node)])];
+    }
     double time() const { return time_; }
     long substeps() const { return substeps_; }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <femlink/yade/ExplicitFarField.hpp>
 
+#include <femlink/explicit/explicit_continuum.hpp>
+
 #include <stdexcept>
 
 namespace yade {
@@ -63,7 +65,7 @@ void ExplicitFarField::postLoad(ExplicitFarField&) {
     options.outer = fl::outer_boundary_from_name("ExplicitFarField.outer", outer);
     options.safety = safety;
     options.hourglass = hourglass;
-    continuum_ = std::make_unique<fl::ExplicitContinuum>(mesh_of(*this), solids_of(*this), options);
+    continuum_ = std::make_shared<fl::ExplicitContinuum>(mesh_of(*this), solids_of(*this), options);
     if (continuum_->surface().face_count() == 0)
         grainfall::laws::reject("ExplicitFarField.boundary", "no coupling face", "at least one of id 2");
     if (!savedState.empty())
@@ -79,6 +81,14 @@ fl::ExplicitContinuum& ExplicitFarField::continuum() {
         throw std::runtime_error("ExplicitFarField.vertices = []: must be those of a mesh; make walls with "
                                  "grainfall.femlink.add_explicit_wall");
     return *continuum_;
+}
+
+Real ExplicitFarField::critical_step() {
+    return continuum().critical_step();
+}
+
+long ExplicitFarField::substeps() {
+    return continuum().substeps();
 }
 
 boost::python::dict ExplicitFarField::energies() {

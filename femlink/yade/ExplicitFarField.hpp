@@ -5,9 +5,11 @@
 #include <lib/base/Math.hpp>
 #include <lib/serialization/Serializable.hpp>
 
-#include <femlink/explicit/explicit_continuum.hpp>
-
 #include <memory>
+
+namespace grainfall::femlink {
+class ExplicitContinuum;
+}
 
 namespace yade {
 
@@ -21,8 +23,8 @@ public:
     /// Throws std::runtime_error if there is none yet.
     grainfall::femlink::ExplicitContinuum& continuum();
 
-    Real critical_step() { return continuum().critical_step(); }
-    long substeps() { return continuum().substeps(); }
+    Real critical_step();
+    long substeps();
     boost::python::dict energies();
     boost::python::list state_now();
 
@@ -49,7 +51,7 @@ public:
     // clang-format on
 
 private:
-    std::unique_ptr<grainfall::femlink::ExplicitContinuum> continuum_;
+    std::shared_ptr<grainfall::femlink::ExplicitContinuum> continuum_;
 };
 REGISTER_SERIALIZABLE(ExplicitFarField);
 

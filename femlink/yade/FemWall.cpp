@@ -2,7 +2,7 @@
 #include <femlink/yade/FemWall.hpp>
 
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
-#include <femlink/yade/ExplicitFarField.hpp>
+#include <femlink/explicit/explicit_continuum.hpp>
 #include <femlink/yade/Ig2_FemFace_Sphere_ScGeom.hpp>
 #include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 
 namespace yade {
@@ -43,13 +45,60 @@ Vector3r turned_into_plane(const Vector3r& force, const Vector3r& normal) {
 
 } // namespace
 
-vector<FemWall*> fem_walls(const Scene& scene) {
+namespace {
+
+vector<FemWall*> walls_of(const Scene& scene) {
     vector<FemWall*> walls;
     for (const auto& engine : scene.engines)
         if (auto* wall = dynamic_cast<FemWall*>(engine.get()))
             if (!wall->dead)
                 walls.push_back(wall);
     return walls;
+}
+
+} // namespace
+
+bool is_wall(const Engine& engine) {
+    return dynamic_cast<const FemWall*>(&engine);
+}
+
+bool has_walls(const Scene& scene) {
+    return !walls_of(scene).empty();
+}
+
+void prepare_walls(Scene& scene, const vector<FacePair>& pairs, FunctorLists& functors) {
+    for (FemWall* wall : walls_of(scene)) {
+        wall->scene = &scene;
+        vector<FacePair> own;
+        std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(own),
+                     [&](const FacePair& pair) { return wall->has_face(*pair.face); });
+        wall->prepare(own, functors);
+    }
+}
+
+void prepare_walls(Scene& scene) {
+    for (FemWall* wall : walls_of(scene))
+        wall->prepare_in_scene();
+}
+
+WallEnergies wall_energies(const Scene& scene) {
+    WallEnergies sum;
+    for (const FemWall* wall : walls_of(scene)) {
+        sum.stored += wall->storedEnergy;
+        sum.dissipated += wall->dissipatedEnergy;
+        sum.supplied += wall->boundaryWork;
+    }
+    return sum;
+}
+
+ExchangeLimit exchange_limit(const Scene& scene) {
+    ExchangeLimit least;
+    for (const FemWall* wall : walls_of(scene)) {
+        const ExchangeLimit limit = wall->exchange_limit();
+        if (limit.step < least.step)
+            least = limit;
+    }
+    return least;
 }
 
 void FemWall::validate() const {
@@ -597,6 +646,28 @@ void FemWall::move_continuum() {
     wall_->put(glide_start_ + share * (body.surface_displacement() - glide_start_), wall_->nodal_forces());
     if (glideStep >= interval)
         glideStep = 0;
+}
+
+/// A contact of stiffness k on a patch of mass m = 1/sum(w^2/m_node) swings with k/m at most.
+ExchangeLimit FemWall::exchange_limit() const {
+    ExchangeLimit least;
+    if (!continuum)
+        return least;
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        const fl::ContactPatch& loaded = touches_[i].site.patch;
+        const shared_ptr<Interaction>& touching = partners_[i].contact;
+        const auto* phys = touching ? dynamic_cast<const FrictPhys*>(touching->phys.get()) : nullptr;
+        if (touches_[i].is_empty() || !phys || !(phys->kn > 0))
+            continue;
+        Real inverse_mass = 0;
+        for (size_t a = 0; a < loaded.nodes.size(); ++a)
+            inverse_mass +=
+                loaded.weights[a] * loaded.weights[a] / continuum->continuum().surface_mass(loaded.nodes[a]);
+        const Real step = 2 / std::sqrt(phys->kn * inverse_mass) / interval;
+        if (step < least.step)
+            least = {step, {partners_[i].face->id, partners_[i].sphere->id}};
+    }
+    return least;
 }
 
 /// Contacts on the surface as it now lies; the law's forces of this step move it in the next.

@@ -14,23 +14,16 @@
 #include <core/GlobalEngine.hpp>
 #include <core/Interaction.hpp>
 
-#include <engines/flat/yade/functor_lists.hpp>
 #include <femlink/core/wall_contacts.hpp>
 #include <femlink/yade/ExplicitFarField.hpp>
 #include <femlink/yade/FemFace.hpp>
+#include <femlink/yade/scene_walls.hpp>
 #include <laws/yade/attribute_checks.hpp>
 
 #include <map>
 #include <memory>
 
 namespace yade {
-
-/// A face and a sphere that are near each other.
-struct FacePair {
-    shared_ptr<Interaction> contact; // body 1: the face
-    Body* face;
-    Body* sphere;
-};
 
 class FemWall : public GlobalEngine {
 public:
@@ -54,6 +47,9 @@ public:
     /// Contacts that the wall's place had before it stood there (faces by body id, shear forces on the
     /// spheres): its faces take them over, and it is where it is under their forces.
     void take_over(const vector<int>& face_ids, const vector<int>& spheres, const vector<Vector3r>& shear);
+
+    /// Infinite for walls without inertia.
+    ExchangeLimit exchange_limit() const;
 
     boost::python::list node_positions();
     boost::python::list node_displacements();
@@ -170,8 +166,5 @@ private:
     Real radius_of(size_t place) const;
 };
 REGISTER_SERIALIZABLE(FemWall);
-
-/// Walls that act in a scene.
-vector<FemWall*> fem_walls(const Scene& scene);
 
 } // namespace yade

@@ -2,7 +2,8 @@
 // Contact forces of one step; contacts made and lost.
 #include <engines/flat/yade/FlatGrains.hpp>
 
-#include <femlink/yade/FemWall.hpp>
+#include <femlink/yade/FemFace.hpp>
+#include <femlink/yade/scene_walls.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/InteractionContainer.hpp>
@@ -159,14 +160,13 @@ bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& mad
 
 /// Deformable walls are solved for where their grains now are.
 void FlatGrains::prepare_walls(Scene& scene) {
-    for (FemWall* wall : fem_walls(scene)) {
-        vector<FacePair> pairs;
-        for (const GeneralPair& pair : general_.all())
-            if (dynamic_cast<const FemFace*>(pair.first->shape.get()) && is_flat(pair.second->id) &&
-                wall->has_face(*pair.first))
-                pairs.push_back({pair.contact, pair.first, pair.second});
-        wall->prepare(pairs, functors);
-    }
+    if (!has_walls(scene))
+        return;
+    vector<FacePair> pairs;
+    for (const GeneralPair& pair : general_.all())
+        if (dynamic_cast<const FemFace*>(pair.first->shape.get()) && is_flat(pair.second->id))
+            pairs.push_back({pair.contact, pair.first, pair.second});
+    yade::prepare_walls(scene, pairs, functors);
 }
 
 void FlatGrains::settle_books() {
