@@ -139,7 +139,9 @@ def test_what_the_wall_gets_is_what_the_grains_lose() -> None:
         assert np.abs(moment).max() < 0.01 * 0.0125 * np.linalg.norm(forces.sum(axis=0))
 
 
-def drag(wall: object, grain: object, velocity: tuple[float, float], way: float, rolls: bool) -> np.ndarray:
+def drag(
+    wall: object, grain: object, velocity: tuple[float, float], way: float, rolls: bool
+) -> np.ndarray:
     """Puts the grain to rest, then pushes it along; (n, 3) forces on it over its weight."""
     grain.state.blockedDOFs = "XYZ"
     newton.damping = 0.3  # noqa: F821
@@ -158,7 +160,9 @@ def drag(wall: object, grain: object, velocity: tuple[float, float], way: float,
     return np.array(forces) / (9.81 * grain.state.mass)
 
 
-def dragged(young: float, rolls: bool, cells: int = 10, path: str = "general") -> tuple[np.ndarray, object]:
+def dragged(
+    young: float, rolls: bool, cells: int = 10, path: str = "general"
+) -> tuple[np.ndarray, object]:
     """A grain crosses 60 mm of a mesh of 10 mm, aslant, over edges and close to corners."""
     O.reset()
     put_materials(restitution=0.3)
@@ -193,7 +197,7 @@ def test_a_rolling_grain_goes_on_rolling_over_edges() -> None:
 
 
 def test_shear_history_goes_from_face_to_face() -> None:
-    # A grain held by friction is pulled over an edge without sliding: rolls, the shear force it started with goes along.
+    # A grain held by friction is pulled over an edge without sliding: the shear force it started with goes along.
     O.reset()
     put_materials(friction=10.0)
     wall = femlink.add_wall(block(RIGID), "face", cache=CACHE)
@@ -264,7 +268,9 @@ def test_yade_s_own_linear_law_works_on_the_wall() -> None:
     )
 
     O.reset()
-    O.materials.append(FrictMat(young=1e8, poisson=0.3, frictionAngle=0.5, density=2600, label="grain"))
+    O.materials.append(
+        FrictMat(young=1e8, poisson=0.3, frictionAngle=0.5, density=2600, label="grain")
+    )
     model = block(2e7)
     wall = femlink.add_wall(model, "grain", cache=CACHE)
     grain = add_grain((0.003, 0.002, RADIUS * (1 + 1e-6)), (0, 0, -1.0))
@@ -286,7 +292,9 @@ def test_yade_s_own_linear_law_works_on_the_wall() -> None:
     # Two springs in series: half a period. The contact is found to 5 steps of about 1500.
     spring = [i.phys.kn for i in O.interactions] or [kn_of(grain)]
     compliance = float(
-        femlink.Wall(model).compliance([model.surface.closest((0.003, 0.002, RADIUS))[0]], [[-0.4, -0.6]])[0, 0]
+        femlink.Wall(model).compliance(
+            [model.surface.closest((0.003, 0.002, RADIUS))[0]], [[-0.4, -0.6]]
+        )[0, 0]
     )
     period = np.pi * np.sqrt(grain.state.mass * (1 / spring[0] + compliance))
     assert seconds == pytest.approx(period, rel=0.01)

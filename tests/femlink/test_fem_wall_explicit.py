@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A wall with inertia under grains: waves carry energy away, soil yields, and the books close (MR-2629, section 5.2)."""
+"""A wall with inertia under grains: waves carry energy away, soil yields, the books close (MR-2629, section 5.2)."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -28,7 +28,11 @@ def solid(young: float = 2e9, **law: object) -> object:
 
 
 def impact(
-    material: object, path: str = "general", speed: float = 1.0, slide: float = 0.0, **options: object
+    material: object,
+    path: str = "general",
+    speed: float = 1.0,
+    slide: float = 0.0,
+    **options: object,
 ) -> tuple[object, object]:
     """A steel-heavy grain about to hit a block of 60 x 60 x 30 mm; wall engine and grain."""
     O.reset()
@@ -61,10 +65,12 @@ def test_what_the_grain_loses_is_in_the_waves_or_went_through_the_boundary(
     books = ledger.table()  # noqa: F821
     lost = 0.5 * grain.state.mass * (1.09 - sum(v * v for v in grain.state.vel))
     assert lost > 0
-    # Forces are exchanged once a step: the wall's work is a sum of F(n) du, the grain's leapfrog a mean; 1 % of the energy.
+    # Forces are exchanged once a step: the wall's work is a sum of F(n) du, the grain's leapfrog a mean: 1 %.
     assert ledger.largestResidual < 0.01 * ledger.energyInPlay  # noqa: F821
     carried = books["farField"] + books["farFieldDissipation"]
-    assert carried == pytest.approx(lost - books["friction"] - books["rescaling"], abs=0.02 * lost + 1e-6)
+    assert carried == pytest.approx(
+        lost - books["friction"] - books["rescaling"], abs=0.02 * lost + 1e-6
+    )
     assert (books["farFieldDissipation"] > 0) == (outer == "absorbing")
 
 
@@ -78,8 +84,8 @@ def test_both_paths_find_the_same() -> None:
 
 
 def test_a_slow_load_meets_the_quasi_static_wall() -> None:
-    # Pushed in at 2 mm/s for 10 ms (20 um): the block's slowest wave crosses it in 0.05 ms. Both walls of degree 1; at rest the
-    # explicit one's displacement is within 1.6 % of the other's (docs/physics/far_field.md).
+    # Pushed in by 20 um in 1 ms, 10 times as long as the block's slowest wave crosses it. Both walls of degree 1; at
+    # rest the explicit one's displacement is within 1.6 % of the other's (docs/physics/far_field.md).
     forces = []
     for explicit in (False, True):
         O.reset()
@@ -111,9 +117,10 @@ def test_soil_that_yields_keeps_the_crater_and_the_energy() -> None:
     O.bodies.erase(grain.id)
     ledger.restart()  # noqa: F821
     O.run(4000, True)
-    depth = -np.array([array(u) for u in wall.nodeDisplacements()])[:, 2].max(), np.array(
-        [array(u) for u in wall.nodeDisplacements()]
-    )[:, 2].min()
+    depth = (
+        -np.array([array(u) for u in wall.nodeDisplacements()])[:, 2].max(),
+        np.array([array(u) for u in wall.nodeDisplacements()])[:, 2].min(),
+    )
     assert depth[1] < -1e-5  # m: a dent stays
 
 
@@ -162,5 +169,7 @@ def test_bad_input_is_refused() -> None:
     mesh = femlink.box((0.06, 0.06, 0.03), (2, 2, 1))
     with pytest.raises(ValueError, match="element = 'tetra'"):
         femlink.add_explicit_wall(mesh, {0: solid()}, "face", element="tetra")
-    with pytest.raises(ValueError, match="FemWall.velocity = .*0 with a continuum that has inertia"):
+    with pytest.raises(
+        ValueError, match="FemWall.velocity = .*0 with a continuum that has inertia"
+    ):
         femlink.add_explicit_wall(mesh, {0: solid()}, "face", velocity=(0, 0, 1.0))

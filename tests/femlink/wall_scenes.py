@@ -52,7 +52,9 @@ def put_materials(restitution: float = 1.0, friction: float = 0.5, face: float =
     O.materials.append(GrainMat(**stiff, **common, label="face"))
 
 
-def add_grain(place: Sequence[float], velocity: Sequence[float] = (0, 0, 0), radius: float = RADIUS) -> Any:
+def add_grain(
+    place: Sequence[float], velocity: Sequence[float] = (0, 0, 0), radius: float = RADIUS
+) -> Any:
     """Sphere of 'grain', returned as body."""
     body = utils.sphere(tuple(place), radius, material="grain")
     body.state.vel = tuple(velocity)
@@ -131,4 +133,8 @@ def rebound(wall: Any, grain: Any, **options: int) -> int:
 
 def array(vector: Any) -> np.ndarray:
     """A YADE vector, or a list of them, as numpy."""
-    return np.array([tuple(v) for v in vector]) if isinstance(vector, list) else np.array(tuple(vector))
+    return (
+        np.array([tuple(v) for v in vector])
+        if isinstance(vector, list)
+        else np.array(tuple(vector))
+    )

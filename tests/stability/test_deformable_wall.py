@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Hard cases of the deformable wall: nothing may run away, whatever its stiffness, mesh or the grain on it.
 
-Every case is elastic, so that the energy ledger's residual is the whole error. On a rigid floor the same impacts leave some
-1e-4 of the energy in play.
+Every case is elastic, so that the energy ledger's residual is the whole error. On a rigid floor the same impacts leave
+some 1e-4 of the energy in play.
 """
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ from yade import O  # noqa: E402
 SAND = {0: (20e6, 0.3, 1600.0)}
 
 
-def on(model: object, grains: list[tuple], path: str = "general", dt: float = 2e-7, **options) -> object:
+def on(
+    model: object, grains: list[tuple], path: str = "general", dt: float = 2e-7, **options
+) -> object:
     """Elastic grains (place, velocity, radius) over a wall."""
     O.reset()
     put_materials(friction=options.pop("friction", 0.5))
@@ -63,7 +65,9 @@ def residual() -> float:
 def test_an_impact_is_energy_neutral_from_k_c_1e_minus_3_to_1e6(exponent: int, path: str) -> None:
     # K C = 1 at about 70e9 Pa x 0.36 mm / 10 mm: the contact's stiffness at its deepest times the wall's compliance.
     speed = 0.02 if exponent > 3 else 1.0
-    wall, grain = impact(2.5e9 / 10.0**exponent, path, speed=speed, dt=2e-7 if exponent < 4 else 2e-5)
+    wall, grain = impact(
+        2.5e9 / 10.0**exponent, path, speed=speed, dt=2e-7 if exponent < 4 else 2e-5
+    )
     rebound(wall, grain, chunk=100, most=400000)
     assert grain.state.vel[2] == pytest.approx(speed, rel=2e-3)
     assert residual() < 5e-3
@@ -71,7 +75,11 @@ def test_an_impact_is_energy_neutral_from_k_c_1e_minus_3_to_1e6(exponent: int, p
 
 def test_a_soft_wall_under_stiff_grains_that_hit_at_different_times() -> None:
     grains = [
-        ((0.011 * (i % 5 - 2), 0.011 * (i // 5 - 2), RADIUS * (1.001 + 0.07 * (i * 7 % 11))), (0, 0, -0.5), RADIUS)
+        (
+            (0.011 * (i % 5 - 2), 0.011 * (i // 5 - 2), RADIUS * (1.001 + 0.07 * (i * 7 % 11))),
+            (0, 0, -0.5),
+            RADIUS,
+        )
         for i in range(25)
     ]
     wall = on(block(1e6), grains, dt=1e-6)
@@ -83,7 +91,8 @@ def test_a_soft_wall_under_stiff_grains_that_hit_at_different_times() -> None:
 def test_a_thin_wall() -> None:
     # One cell, a tenth as thick as it is wide, on a rigid bed: ten times as stiff as a half-space.
     wall = on(
-        block(2e7, size=(0.1, 0.1, 0.001), cells=(10, 10, 1)), [((0.003, 0.002, 0.005001), (0, 0, -1), RADIUS)]
+        block(2e7, size=(0.1, 0.1, 0.001), cells=(10, 10, 1)),
+        [((0.003, 0.002, 0.005001), (0, 0, -1), RADIUS)],
     )
     run_out(wall)
     assert residual() < 1e-3
@@ -94,7 +103,9 @@ def test_cells_turned_nearly_flat() -> None:
     vertices = np.array(mesh.vertices)
     # One vertex inside the top pulled to within 3 % of the opposite corner of a face, and another sunk to within 3 % of
     # the one below it: faces that are nearly triangles, cells that are nearly wedges.
-    top = np.flatnonzero((np.abs(vertices[:, 2]) < 1e-9) & (np.abs(vertices[:, :2]).max(axis=1) < 1e-9))[0]
+    top = np.flatnonzero(
+        (np.abs(vertices[:, 2]) < 1e-9) & (np.abs(vertices[:, :2]).max(axis=1) < 1e-9)
+    )[0]
     vertices[top, :2] += (0.0047, 0.0047)
     below = np.flatnonzero(np.linalg.norm(vertices - (0.02, 0.02, 0), axis=1) < 1e-9)[0]
     vertices[below, 2] -= 0.003
@@ -113,7 +124,9 @@ def test_cells_turned_nearly_flat() -> None:
 
 def test_a_grain_ten_times_as_large_as_a_face_and_one_ten_times_smaller() -> None:
     for radius, speed in ((0.05, 0.2), (0.0005, 1.0)):
-        model = block(2e7, size=(0.2, 0.2, 0.1), cells=(20, 20, 10)) if radius > 0.01 else block(2e7)
+        model = (
+            block(2e7, size=(0.2, 0.2, 0.1), cells=(20, 20, 10)) if radius > 0.01 else block(2e7)
+        )
         wall = on(
             model,
             [((0.003, 0.002, radius * (1 + 1e-6)), (0, 0, -speed), radius)],
@@ -135,7 +148,11 @@ def test_a_grain_thrown_into_a_corner_of_three_faces() -> None:
     for young in (1e6, 1e9):
         model = femlink.cached_wall(mesh, {0: (young, 0.3, 1600.0)}, cache=CACHE)
         near = 0.02 - RADIUS * 1.001
-        wall = on(model, [((-near, -near, -0.04 + RADIUS * 1.001), (-0.5, -0.4, -0.6), RADIUS)], friction=0.0)
+        wall = on(
+            model,
+            [((-near, -near, -0.04 + RADIUS * 1.001), (-0.5, -0.4, -0.6), RADIUS)],
+            friction=0.0,
+        )
         most = 0
         while O.iter < 3 or wall.contacts or O.bodies[-1].state.vel[2] < 0:
             O.run(20, True)
