@@ -19,7 +19,7 @@ DIAMETER = 0.057  # m, of the replica
 #: Half-widths in diameters: of the near fields, and of the bed that is grains throughout.
 NEAR, WHOLE = (1.25, 1.75, 2.5), 3.5
 #: Steps between common solutions that are tried in the smallest near field.
-INTERVALS = (10, 30, 100, 300)
+INTERVALS = (3, 10, 30, 100)
 DEPTH, GRAIN, YOUNG, END = 0.15, 12e-3, 2e8, 0.05
 #: Moment at which depths are compared, after first touch [s].
 COMPARED_AT = 0.04

@@ -26,6 +26,9 @@ from grainfall.beds import Bed
 
 #: Growth of the cells from one to the next, outwards: docs/physics/far_field.md.
 RATIO = 1.3
+#: A load follows its contact when that has left it by this share of the patch that it is spread over, and forces are
+#: solved for to this share of the largest: cells of several grains resolve no more.
+DRIFT, TOLERANCE = 0.05, 1e-6
 #: Rigid screens above the continuum hold grains that fly [m].
 SCREEN_HEIGHT, SCREEN_THICKNESS = 3.0, 0.1
 
@@ -190,6 +193,8 @@ def add_faces(p: Mapping[str, Any], model: Any) -> Any:
         "wall",
         cache=p["far_field_cache"],
         interval=p["far_field_interval"],
+        drift=DRIFT,
+        tolerance=TOLERANCE,
         label="far_field",
     )
 

@@ -74,7 +74,7 @@ FAR_FIELD = (
     ),
     Option(
         "far_field_interval",
-        100,
+        10,
         "steps between two solutions for all contacts on the continuum together; in between each is solved alone",
         kind=int,
         low=1,
