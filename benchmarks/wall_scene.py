@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a deformable wall costs in a YADE scene, and what solving it seldom changes: tables of docs/physics/far_field.md.
+"""What a deformable wall costs in a YADE scene, and what solving it seldom changes, docs/physics/far_field.md.
 
 usage: PYTHONPATH=build/python yade -j1 -n -x benchmarks/wall_scene.py
 

@@ -627,12 +627,16 @@ void FemWall::solve_together(const vector<fl::LawContact>& laws, const fl::Solve
 /// surface goes there evenly in between.
 void FemWall::move_continuum() {
     read_law_forces();
-    load_sum_ += wall_->loads_on_nodes(touches_);
+    const fl::Positions loads = wall_->loads_on_nodes(touches_);
+    load_sum_ += loads;
     ++loadsSummed;
     fl::ExplicitContinuum& body = continuum->continuum();
     if (glideStep == 0) {
         glide_start_ = wall_->displacement();
-        body.advance(interval * scene->dt, load_sum_ / loadsSummed);
+        fl::Positions load = load_sum_ / loadsSummed;
+        for (size_t i = 0; i < startForces.size(); ++i)
+            load.col(static_cast<Eigen::Index>(i)) -= startForces[i];
+        body.advance(interval * scene->dt, load);
         if (scene->trackEnergy) {
             const fl::ExplicitEnergies energies = body.energies();
             storedEnergy = energies.kinetic + energies.elastic + energies.hourglass + energies.ground;
@@ -643,7 +647,7 @@ void FemWall::move_continuum() {
     }
     ++glideStep;
     const Real share = static_cast<Real>(glideStep) / interval;
-    wall_->put(glide_start_ + share * (body.surface_displacement() - glide_start_), wall_->nodal_forces());
+    wall_->put(glide_start_ + share * (body.surface_displacement() - glide_start_), loads);
     if (glideStep >= interval)
         glideStep = 0;
 }

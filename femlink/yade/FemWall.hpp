@@ -87,6 +87,7 @@ public:
         ((vector<Vector3r>, datum, , Attr::readonly, "Displacement [m] of the nodes that counts as none: that under the forces which :yref:`takeOver<FemWall.takeOver>` found. Empty: zero."))
         ((long, preparedStep, -1, Attr::hidden, "Last step that contacts were looked for in."))
         ((long, solvedStep, -1, Attr::hidden, "Last step that the wall was solved for."))
+        ((vector<Vector3r>, startForces, , Attr::readonly, "Forces [N] on the nodes that a continuum with inertia is at rest under: those which :yref:`takeOver<FemWall.takeOver>` found. Empty: zero."))
         ((Real, dissipatedEnergy, 0, Attr::readonly, "Energy [J] that a continuum with inertia has lost to plastic flow and through its absorbing boundary."))
         ((int, glideStep, 0, Attr::hidden, "Steps since the continuum was moved on."))
         ((int, loadsSummed, 0, Attr::hidden, "Steps in savedLoadSum."))
