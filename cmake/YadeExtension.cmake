@@ -49,6 +49,8 @@ target_compile_options(grainfall_core PRIVATE -fno-math-errno)
 file(GLOB inner_loops CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/laws/yade/contact_kernels_*.cpp"
      "${PROJECT_SOURCE_DIR}/laws/yade/wet_contact.cpp" "${PROJECT_SOURCE_DIR}/engines/flat/yade/flat_*.cpp"
      "${PROJECT_SOURCE_DIR}/femlink/yade/FemWall.cpp" "${PROJECT_SOURCE_DIR}/femlink/yade/ExplicitFarField.cpp")
+# -Wno-psabi: functions over vectors of four numbers are all inlined, so that no convention of passing them matters.
+# (YADE's own -frounding-math would take the square roots of four numbers one by one, and is no part of its interface.)
 set_source_files_properties(${inner_loops} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>;-Wno-psabi")
 # Boost.Python and Eigen are most of a translation unit's compile time.
 target_precompile_headers(grainfall_core PRIVATE <lib/serialization/Serializable.hpp>)

@@ -11,15 +11,14 @@
 //       force *= where(slides, limit / force, Scalar(1));
 //
 // A lane's result does not depend on its neighbours, to the last bit. The vectors are the compiler's own
-// (GCC, Clang); on a processor whose vectors are shorter it splits them. How a vector is returned depends on the
-// instruction set that a function is compiled for: all that return Lanes or a LaneMask must be inlined by order.
+// (GCC, Clang); on a processor whose vectors are shorter it splits them. How a vector is returned depends on
+// the instruction set that a function is compiled for: all that return Lanes or a LaneMask must be inlined by
+// order.
 #pragma once
 
 #include <Eigen/Core>
 
 #include <cmath>
-#include <cstddef>
-#include <utility>
 
 namespace grainfall::laws {
 

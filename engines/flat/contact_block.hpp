@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
+#include <variant>
+#include <vector>
 
 namespace grainfall::flat {
 
