@@ -96,8 +96,8 @@ def test_a_settled_bed_s_weight_stands_on_the_wall_whatever_the_mesh() -> None:
         assert wall.force[2] == pytest.approx(-weight, rel=1e-3)
         touches = wall.touches()
         assert len(touches) == 16
-        # What each contact's own patch adds depends on the mesh by design, and is known: discs of 1.25 faces, widened by
-        # the shape functions. The rest must not.
+        # What each contact's own patch adds depends on the mesh by design, and is known: discs of 1.25 faces,
+        # widened by the shape functions. The rest must not.
         size = 2 * 2.4 * RADIUS * 4 / cells
         disc = femlink.disc_compliance(2e7, 0.3, np.sqrt(1.25**2 + 2 / 3) * size)
         local = disc * np.mean([t["force"][2] for t in touches])
