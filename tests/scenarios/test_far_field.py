@@ -123,10 +123,9 @@ def test_a_bed_is_as_quiet_on_the_continuum_as_in_its_box_and_the_wall_carries_i
     np.testing.assert_allclose(carried[True], carried[False], rtol=0.01)
     # The bed has settled to an unbalanced force of 0.8 %.
     assert np.mean(carried[True]) == pytest.approx(weight(bed), rel=0.015)
-    # What is not accounted for would lift no grain by a thousandth of its diameter.
-    assert builtins.energy_ledger.largestResidual < 1e-3 * bed.spec.diameter * weight(bed) / len(
-        bed.radii
-    )
+    # What is not accounted for is a thousandth of what the weight has put into the wall. (Were the wall to jump where
+    # each common solution finds it, the dashpots would make that several times as much.)
+    assert builtins.energy_ledger.largestResidual < 1e-3 * builtins.far_field.storedEnergy
 
 
 def test_a_stiff_continuum_is_the_rigid_box(small_drop, wall_cache) -> None:
@@ -140,30 +139,27 @@ def test_a_stiff_continuum_is_the_rigid_box(small_drop, wall_cache) -> None:
 
 
 def test_a_drop_in_a_continuum_states_it_and_balances(small_drop, wall_cache) -> None:
-    summary, folder = small_drop(
-        duration=8e-3,
-        dt_safety=0.1,
-        far_field_cache=str(wall_cache),
-        vtk_interval=4e-3,
-        **CONTINUUM,
-    )
+    options = {**CONTINUUM, "far_field_interval": 1, "far_field_cache": str(wall_cache)}
+    summary, folder = small_drop(duration=5e-3, dt_safety=0.1, vtk_interval=2e-3, **options)
     wall = summary["far_field"]
     assert wall["cells"] > 0 and wall["unknowns"] > wall["surface_unknowns"] > 0
     assert wall["compliance_bytes"] == 8 * wall["surface_unknowns"] ** 2
-    assert wall["interval"] == 10 and wall["setup_seconds"] > 0
+    assert wall["interval"] == 1 and wall["setup_seconds"] > 0
     assert wall["contacts"] > 50 and wall["strain_energy_J"] > 0
     assert wall["largest_displacement_m"] > 0
     assert wall["largest_disagreement"] < 0.05
     assert summary["path"] == "flat"
-    assert 0 < summary["energy_residual_relative"] < 5e-3
+    # As in the rigid box: test_drop_results.py.
+    assert 0 < summary["energy_residual_relative"] < 1e-3
     rows = np.genfromtxt(folder / "far_field.csv", delimiter=",", names=True)
-    assert rows["time_s"][-1] == pytest.approx(8e-3, rel=0.01)
+    assert rows["time_s"][-1] == pytest.approx(5e-3, rel=0.01)
     # Continuum and grains at the same moments, and one file that names them all.
     vtk = folder / "vtk"
     moments = {path.name[:11] for path in vtk.glob("*-far-field.vtu")}
     assert moments == {path.name[:11] for path in vtk.glob("*-projectile.vtp")} and len(moments) > 1
     named = [part.get("file") for part in ElementTree.parse(vtk / "scene.pvd").iter("DataSet")]
     assert len(named) == 4 * len(moments) and all((vtk / name).exists() for name in named)
+    compile((vtk / "scene.py").read_text(), "scene.py", "exec")
     shown = meshio.read(vtk / f"{max(moments)}-far-field.vtu")
     moved = np.linalg.norm(shown.point_data["displacement"], axis=1).max()
     assert 0 < moved <= wall["largest_displacement_m"] * 1.1

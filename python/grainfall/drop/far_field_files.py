@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The continuum at the moments of a run's snapshots for ParaView, made after the run from the files in its folder.
 
-deal.II is loaded here, not while the run goes on. One file, ``vtk/scene.pvd``, shows grains, contacts, projectile and
-continuum together.
+deal.II is loaded here, not while the run goes on. ``vtk/scene.pvd`` holds grains, contacts, projectile and continuum
+together, ``vtk/scene.py`` shows them.
 """
 from __future__ import annotations
 
@@ -11,13 +11,19 @@ from pathlib import Path
 import numpy as np
 
 from grainfall.drop.far_field import Continuum
+from grainfall.drop.paraview_state import write_state
 
-#: Files of a moment, by what stands behind its time in their names.
-PARTS = ("spheres", "contacts", "projectile", "far-field")
+#: What stands behind the time in the names of a moment's files, and the name of the part in ParaView.
+PARTS = {
+    "spheres": "grains",
+    "contacts": "contacts",
+    "projectile": "projectile",
+    "far-field": "continuum",
+}
 
 
 def write_far_field_files(folder: Path, continuum: Continuum) -> None:
-    """Write ``vtk/*-far-field.vtu``: displacement and stress that the drop has added, and ``vtk/scene.pvd``.
+    """Write ``vtk/*-far-field.vtu`` (displacement and stress that the drop has added), ``scene.pvd``, ``scene.py``.
 
     Moments whose file is there already are left as they are.
     """
@@ -36,6 +42,7 @@ def write_far_field_files(folder: Path, continuum: Continuum) -> None:
                 str(_file(folder, path)), field.solve(surface_forces=forces), _seconds(path.stem)
             )
     _write_collection(folder / "vtk")
+    write_state(folder / "vtk", 2 * (max(continuum.cavity) + 2 * continuum.thickness))
 
 
 def _write_with_inertia(folder: Path, continuum: Continuum, moments: list[Path]) -> None:
@@ -61,9 +68,10 @@ def _write_collection(folder: Path) -> None:
     """All parts of all moments in one ParaView collection."""
     lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1"><Collection>']
     for path in sorted(folder.glob("*us-*.vt[up]")):
-        part = next((part for part in PARTS if part in path.name), None)
-        if part is not None:
-            where = f'part="{PARTS.index(part)}" name="{part}" file="{path.name}"'
-            lines.append(f'<DataSet timestep="{_seconds(path.name)}" {where}/>')
+        word = next((word for word in PARTS if word in path.name), None)
+        if word is not None:
+            part = f'part="{list(PARTS).index(word)}" name="{PARTS[word]}"'
+            when = f'timestep="{_seconds(path.name):.6f}"'
+            lines.append(f'<DataSet {when} {part} file="{path.name}"/>')
     lines.append("</Collection></VTKFile>")
     (folder / "scene.pvd").write_text("\n".join(lines) + "\n", encoding="ascii")
