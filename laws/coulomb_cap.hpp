@@ -20,47 +20,72 @@
 
 namespace grainfall::laws {
 
+namespace detail {
+
+// mu where it is asked for; a curve of several contacts need not be evaluated elsewhere, where its lower
+// bound has settled the question.
+template <class Friction>
+[[gnu::always_inline]] inline double coefficient(const Friction& friction, double load, bool) {
+    return friction.coefficient(load);
+}
+template <class Friction>
+[[gnu::always_inline]] inline Lanes coefficient(const Friction& friction, const Lanes& load,
+                                                const LaneMask& open) {
+    return friction.coefficient(load, open);
+}
+
+template <class Scalar>
+[[gnu::always_inline]] inline Scalar shortening(const MaskOf<Scalar>& slides, const Scalar& limit,
+                                                const Scalar& squared) {
+    using std::sqrt;
+    return where(slides, limit / sqrt(squared), Scalar(1));
+}
+
+} // namespace detail
+
 // Shortens the spring `elastic`, gives the `total` to apply, says if it slides. `load` is the normal force
 // in N, never negative; `viscous` is the dashpot's tangential force. A curve is evaluated only where its
 // lower bound does not settle the question.
-template <class Friction>
-[[gnu::always_inline]] inline bool cap_shear(const Friction& friction, double load, const Vector& viscous,
-                                             Vector& elastic, Vector& total) {
+template <class Friction, class Scalar>
+[[gnu::always_inline]] inline MaskOf<Scalar> cap_shear(const Friction& friction, const Scalar& load,
+                                                       const VectorOf<Scalar>& viscous,
+                                                       VectorOf<Scalar>& elastic, VectorOf<Scalar>& total) {
     total = elastic + viscous;
-    const double settled = friction.lower_bound() * load;
-    const double elastic_squared = elastic.squaredNorm();
-    double total_squared = total.squaredNorm();
-    if (!(elastic_squared > settled * settled || total_squared > settled * settled))
-        return false;
+    const Scalar settled = friction.lower_bound() * load;
+    const Scalar elastic_squared = elastic.squaredNorm();
+    Scalar total_squared = total.squaredNorm();
+    const auto open = elastic_squared > settled * settled || total_squared > settled * settled;
+    if (!any(open))
+        return MaskOf<Scalar>(false);
 
-    const double limit = friction.coefficient(load) * load;
-    bool sliding = false;
-    if (elastic_squared > limit * limit) {
-        elastic *= limit / std::sqrt(elastic_squared);
+    const Scalar limit = detail::coefficient(friction, load, open) * load;
+    const auto spring_slides = elastic_squared > limit * limit;
+    if (any(spring_slides)) {
+        elastic *= detail::shortening(spring_slides, limit, elastic_squared);
         total = elastic + viscous;
         total_squared = total.squaredNorm();
-        sliding = true;
     }
-    if (total_squared > limit * limit) {
-        total *= limit / std::sqrt(total_squared);
-        sliding = true;
-    }
-    return sliding;
+    const auto sum_slides = total_squared > limit * limit;
+    if (any(sum_slides))
+        total *= detail::shortening(sum_slides, limit, total_squared);
+    return spring_slides || sum_slides;
 }
 
 // The same without a dashpot.
-template <class Friction>
-[[gnu::always_inline]] inline bool cap_shear(const Friction& friction, double load, Vector& elastic) {
-    const double settled = friction.lower_bound() * load;
-    const double elastic_squared = elastic.squaredNorm();
-    if (!(elastic_squared > settled * settled))
-        return false;
+template <class Friction, class Scalar>
+[[gnu::always_inline]] inline MaskOf<Scalar> cap_shear(const Friction& friction, const Scalar& load,
+                                                       VectorOf<Scalar>& elastic) {
+    const Scalar settled = friction.lower_bound() * load;
+    const Scalar elastic_squared = elastic.squaredNorm();
+    const auto open = elastic_squared > settled * settled;
+    if (!any(open))
+        return MaskOf<Scalar>(false);
 
-    const double limit = friction.coefficient(load) * load;
-    if (!(elastic_squared > limit * limit))
-        return false;
-    elastic *= limit / std::sqrt(elastic_squared);
-    return true;
+    const Scalar limit = detail::coefficient(friction, load, open) * load;
+    const auto slides = elastic_squared > limit * limit;
+    if (any(slides))
+        elastic *= detail::shortening(slides, limit, elastic_squared);
+    return slides;
 }
 
 } // namespace grainfall::laws

@@ -15,6 +15,7 @@
 // two bodies; a grain held by several contacts is damped by each.
 #pragma once
 
+#include <laws/lanes.hpp>
 #include <laws/validation.hpp>
 
 #include <algorithm>
@@ -32,13 +33,19 @@ struct NoDamping {
 struct RepulsiveDashpot {
     static constexpr bool active = true;
     static constexpr bool attracts = false;
-    static double total(double elastic, double viscous) { return std::max(0.0, elastic + viscous); }
+    template <class Scalar>
+    [[gnu::always_inline]] static Scalar total(const Scalar& elastic, const Scalar& viscous) {
+        return larger(Scalar(0), elastic + viscous);
+    }
 };
 
 struct AttractiveDashpot {
     static constexpr bool active = true;
     static constexpr bool attracts = true;
-    static double total(double elastic, double viscous) { return elastic + viscous; }
+    template <class Scalar>
+    [[gnu::always_inline]] static Scalar total(const Scalar& elastic, const Scalar& viscous) {
+        return elastic + viscous;
+    }
 };
 
 namespace detail {

@@ -15,39 +15,42 @@ struct NoEnergy {
     static constexpr bool active = false;
 };
 
-struct DissipationBook {
+template <class Scalar>
+struct DissipationBookOf {
+    using Vector = VectorOf<Scalar>;
     static constexpr bool active = true;
 
-    double friction = 0; // work of slip; the elastic part of a step that slips is not in it
-    double viscous = 0;  // both dashpots
+    Scalar friction = 0; // work of slip; the elastic part of a step that slips is not in it
+    Scalar viscous = 0;  // both dashpots
     // Elastic shear energy that goes when the contact stiffens at constant force or is rescaled as it
     // softens. Negative where the law makes energy: ReportTangential as it softens, SecantTangential as it
     // stiffens.
-    double rescaling = 0;
+    Scalar rescaling = 0;
 
     // The dashpots' part of the last applied force: belongs to the contact, kept from step to step.
-    double normal_viscous_force = 0;
+    Scalar normal_viscous_force = 0;
     Vector shear_viscous_force = Vector::Zero();
 
-    void add_normal(double viscous_force, double displacement) {
+    void add_normal(const Scalar& viscous_force, const Scalar& displacement) {
         viscous -= 0.5 * (normal_viscous_force + viscous_force) * displacement;
         normal_viscous_force = viscous_force;
     }
 
     // Elastic shear force: `before` the step (already turned with the contact), `rescaled`, after the
     // increment (`trial`) and after the cap (`after`).
-    void add_shear(const Vector& before, double stiffness_before, const Vector& rescaled, const Vector& trial,
-                   const Vector& after, double stiffness, const Vector& increment) {
+    void add_shear(const Vector& before, const Scalar& stiffness_before, const Vector& rescaled,
+                   const Vector& trial, const Vector& after, const Scalar& stiffness,
+                   const Vector& increment) {
         rescaling += shear_elastic_energy(before, stiffness_before) -
                      shear_elastic_energy(rescaled, stiffness) - 0.5 * (before - rescaled).dot(increment);
-        if (stiffness > 0)
-            friction += 0.5 * (rescaled + after).dot(trial - after) / stiffness;
+        const Scalar slip_work = 0.5 * (rescaled + after).dot(trial - after) / stiffness;
+        friction += where(stiffness > 0, slip_work, Scalar(0));
     }
 
     // A contact that slips from its rim inwards: elastic shear force (turned with the contact) and energy
     // before and after the step. What is not stored is slip.
-    void add_partial_slip(const Vector& before, double energy_before, const Vector& after,
-                          double energy_after, const Vector& increment) {
+    void add_partial_slip(const Vector& before, const Scalar& energy_before, const Vector& after,
+                          const Scalar& energy_after, const Vector& increment) {
         friction -= 0.5 * (before + after).dot(increment) + (energy_after - energy_before);
     }
 
@@ -62,5 +65,6 @@ struct DissipationBook {
         rescaling += shear_elastic_energy(memory);
     }
 };
+using DissipationBook = DissipationBookOf<double>;
 
 } // namespace grainfall::laws

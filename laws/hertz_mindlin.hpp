@@ -29,21 +29,26 @@ namespace grainfall::laws {
 template <class Normal, class Tangential, class Damping, class Friction, class Energy = NoEnergy>
 struct HertzMindlin {
     static constexpr bool slips_partially = std::is_same_v<Tangential, PartialSlipTangential>;
-    using Memory = std::conditional_t<slips_partially, PartialSlipMemory, ContactMemory>;
+    template <class Scalar>
+    using MemoryOf = std::conditional_t<slips_partially, PartialSlipMemory, ContactMemoryOf<Scalar>>;
+    using Memory = MemoryOf<double>;
 
-    static ContactForce step(const ContactGeometry& geometry, const ContactParameters& parameters,
-                             const Friction& friction, Memory& memory, Energy& energy) {
-        const double root_overlap = std::sqrt(geometry.overlap);
-        ContactForce force;
+    template <class Scalar>
+    static ContactForceOf<Scalar> step(const ContactGeometryOf<Scalar>& geometry,
+                                       const ContactParametersOf<Scalar>& parameters,
+                                       const Friction& friction, MemoryOf<Scalar>& memory, Energy& energy) {
+        using std::sqrt;
+        const Scalar root_overlap = sqrt(geometry.overlap);
+        ContactForceOf<Scalar> force;
         force.normal_stiffness = Normal::stiffness(parameters.normal_coefficient, root_overlap);
         force.normal = Normal::force(parameters.normal_coefficient, geometry.overlap, root_overlap);
 
-        double quarter_power = 0; // overlap^(1/4)
+        Scalar quarter_power = 0; // overlap^(1/4)
         if constexpr (Damping::active) {
-            quarter_power = std::sqrt(root_overlap);
-            const double elastic = force.normal;
-            const double c = Normal::square_root_of_factor * parameters.normal_damping * quarter_power;
-            force.normal = Damping::total(elastic, -c * geometry.normal_velocity);
+            quarter_power = sqrt(root_overlap);
+            const Scalar elastic = force.normal;
+            const Scalar c = Normal::square_root_of_factor * parameters.normal_damping * quarter_power;
+            force.normal = Damping::total(elastic, Scalar(-c * geometry.normal_velocity));
             if constexpr (Energy::active) {
                 energy.add_normal(force.normal - elastic, geometry.normal_velocity * geometry.time_step);
             }
@@ -57,32 +62,32 @@ struct HertzMindlin {
     }
 
 private:
-    [[gnu::always_inline]] static void shear(const ContactGeometry& geometry,
-                                             const ContactParameters& parameters, const Friction& friction,
-                                             double root_overlap, double quarter_power, ContactMemory& memory,
-                                             Energy& energy, ContactForce& force) {
-        const double stiffness =
+    template <class Scalar>
+    [[gnu::always_inline]] static void
+    shear(const ContactGeometryOf<Scalar>& geometry, const ContactParametersOf<Scalar>& parameters,
+          const Friction& friction, const Scalar& root_overlap, const Scalar& quarter_power,
+          ContactMemoryOf<Scalar>& memory, Energy& energy, ContactForceOf<Scalar>& force) {
+        const Scalar stiffness =
             shear_stiffness<Normal, Tangential>(parameters.shear_coefficient, root_overlap);
         force.shear_stiffness = stiffness;
-        const Vector before = rotated_with_contact(memory.shear_force, geometry);
-        Vector elastic = before;
-        if constexpr (Tangential::rescales_on_loading) {
-            if (memory.shear_stiffness > 0)
-                elastic *= stiffness / memory.shear_stiffness;
-        } else if constexpr (Tangential::rescales_on_unloading) {
-            if (stiffness < memory.shear_stiffness)
-                elastic *= stiffness / memory.shear_stiffness;
+        const VectorOf<Scalar> before = rotated_with_contact(memory.shear_force, geometry);
+        VectorOf<Scalar> elastic = before;
+        if constexpr (Tangential::rescales_on_loading || Tangential::rescales_on_unloading) {
+            const auto rescales = Tangential::rescales_on_loading ? memory.shear_stiffness > 0
+                                                                  : stiffness < memory.shear_stiffness;
+            if (any(rescales))
+                elastic *= where(rescales, stiffness / memory.shear_stiffness, Scalar(1));
         }
-        const Vector rescaled = elastic;
+        const VectorOf<Scalar> rescaled = elastic;
         elastic -= stiffness * geometry.shear_increment;
-        const Vector trial = elastic;
+        const VectorOf<Scalar> trial = elastic;
 
-        const double load = Damping::attracts ? std::max(0.0, force.normal) : force.normal;
+        const Scalar load = Damping::attracts ? larger(Scalar(0), force.normal) : force.normal;
         if constexpr (Damping::active) {
             // sqrt(k_t / k_t of Hertz and Mindlin) at the same overlap.
             constexpr double factor = Tangential::square_root_of_factor * Normal::sixth_root_of_factor;
-            const double c = factor * parameters.shear_damping * quarter_power;
-            const Vector viscous = (-c / geometry.time_step) * geometry.shear_increment;
+            const Scalar c = factor * parameters.shear_damping * quarter_power;
+            const VectorOf<Scalar> viscous = Scalar(-c / geometry.time_step) * geometry.shear_increment;
             force.sliding = cap_shear(friction, load, viscous, elastic, force.shear);
             if constexpr (Energy::active)
                 energy.add_shear_viscous(force.shear - elastic, geometry.shear_increment);

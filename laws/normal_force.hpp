@@ -18,11 +18,14 @@ namespace grainfall::laws {
 template <class Law>
 struct NormalForce {
     // N; `root_overlap` is sqrt(overlap), which the law needs in several places.
-    static double force(double coefficient, double overlap, double root_overlap) {
+    template <class Scalar>
+    [[gnu::always_inline]] static Scalar force(const Scalar& coefficient, const Scalar& overlap,
+                                               const Scalar& root_overlap) {
         return Law::factor * coefficient * (overlap * root_overlap);
     }
     // N/m, tangent.
-    static double stiffness(double coefficient, double root_overlap) {
+    template <class Scalar>
+    [[gnu::always_inline]] static Scalar stiffness(const Scalar& coefficient, const Scalar& root_overlap) {
         return 1.5 * Law::factor * coefficient * root_overlap;
     }
     // J, work stored between first touch and this overlap: integral of F = 2/5 F d.

@@ -20,41 +20,52 @@
 namespace grainfall::laws {
 
 // Where two bodies touch. A plane counts as a sphere of some large radius.
-struct Touch {
+template <class Scalar>
+struct TouchOf {
+    using Vector = VectorOf<Scalar>;
     Vector normal = Vector::UnitX(); // unit vector, 1 -> 2
-    double overlap = 0;              // m, negative when apart
-    double radius1 = 0, radius2 = 0; // m, of the undeformed bodies
+    Scalar overlap = 0;              // m, negative when apart
+    Scalar radius1 = 0, radius2 = 0; // m, of the undeformed bodies
 };
+using Touch = TouchOf<double>;
 
-[[gnu::always_inline]] inline Touch touch_of_spheres(const Vector& branch, double distance, double radius1,
-                                                     double radius2) {
+template <class Scalar>
+[[gnu::always_inline]] inline TouchOf<Scalar> touch_of_spheres(const VectorOf<Scalar>& branch,
+                                                               const Scalar& distance, const Scalar& radius1,
+                                                               const Scalar& radius2) {
     return {branch / distance, radius1 + radius2 - distance, radius1, radius2};
 }
 
 // m/s, velocity of body 2 seen from body 1 at the contact, as shear counts it.
-[[gnu::always_inline]] inline Vector shear_velocity(const Touch& touch, const Vector& velocity,
-                                                    const Vector& spin1, const Vector& spin2) {
-    const double sum = touch.radius1 + touch.radius2;
-    const double alpha = sum / (sum - touch.overlap);
-    const Vector spin = touch.radius1 * spin1 + touch.radius2 * spin2;
-    const Vector relative = alpha * velocity - spin.cross(touch.normal);
+template <class Scalar>
+[[gnu::always_inline]] inline VectorOf<Scalar>
+shear_velocity(const TouchOf<Scalar>& touch, const VectorOf<Scalar>& velocity, const VectorOf<Scalar>& spin1,
+               const VectorOf<Scalar>& spin2) {
+    const Scalar sum = touch.radius1 + touch.radius2;
+    const Scalar alpha = sum / (sum - touch.overlap);
+    const VectorOf<Scalar> spin = touch.radius1 * spin1 + touch.radius2 * spin2;
+    const VectorOf<Scalar> relative = alpha * velocity - spin.cross(touch.normal);
     return relative - touch.normal.dot(relative) * touch.normal;
 }
 
 // `velocity` is that of body 2 less that of body 1. Fills everything but tilt and twist.
-[[gnu::always_inline]] inline void put_motion(ContactGeometry& geometry, const Touch& touch,
-                                              const Vector& velocity, const Vector& spin1,
-                                              const Vector& spin2, double time_step) {
+template <class Scalar>
+[[gnu::always_inline]] inline void put_motion(ContactGeometryOf<Scalar>& geometry,
+                                              const TouchOf<Scalar>& touch, const VectorOf<Scalar>& velocity,
+                                              const VectorOf<Scalar>& spin1, const VectorOf<Scalar>& spin2,
+                                              double time_step) {
     geometry.overlap = touch.overlap;
     geometry.normal = touch.normal;
-    geometry.shear_increment = time_step * shear_velocity(touch, velocity, spin1, spin2);
+    geometry.shear_increment = Scalar(time_step) * shear_velocity(touch, velocity, spin1, spin2);
     geometry.normal_velocity = velocity.dot(touch.normal);
     geometry.time_step = time_step;
 }
 
 // How the contact turned since its normal was `before`.
-[[gnu::always_inline]] inline void put_rotation(ContactGeometry& geometry, const Vector& before,
-                                                const Vector& spin1, const Vector& spin2) {
+template <class Scalar>
+[[gnu::always_inline]] inline void put_rotation(ContactGeometryOf<Scalar>& geometry,
+                                                const VectorOf<Scalar>& before, const VectorOf<Scalar>& spin1,
+                                                const VectorOf<Scalar>& spin2) {
     geometry.tilt = before.cross(geometry.normal);
     geometry.twist = (0.5 * geometry.time_step * before.dot(spin1 + spin2)) * before;
 }

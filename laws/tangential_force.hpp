@@ -31,19 +31,23 @@ namespace grainfall::laws {
 // neither makes nor loses elastic energy, and the direction after a full turn in n steps is good to
 // O(n^-2). When nothing turns the force is returned unchanged. (YADE's own first-order rotation lengthens
 // the force by half the angle squared in every step.)
-[[gnu::always_inline]] inline Vector rotated_with_contact(const Vector& force,
-                                                          const ContactGeometry& geometry) {
-    const Vector half = 0.5 * (geometry.tilt + geometry.twist);
-    const Vector turned = half.cross(force);
-    Vector result = force + (2.0 / (1.0 + half.squaredNorm())) * (turned + half.cross(turned));
+template <class Scalar>
+[[gnu::always_inline]] inline VectorOf<Scalar>
+rotated_with_contact(const VectorOf<Scalar>& force, const ContactGeometryOf<Scalar>& geometry) {
+    const VectorOf<Scalar> half = 0.5 * (geometry.tilt + geometry.twist);
+    const VectorOf<Scalar> turned = half.cross(force);
+    VectorOf<Scalar> result =
+        force + Scalar(2.0 / (1.0 + half.squaredNorm())) * (turned + half.cross(turned));
 
-    const double out_of_plane = result.dot(geometry.normal);
-    const double length_squared = result.squaredNorm();
+    const Scalar out_of_plane = result.dot(geometry.normal);
+    const Scalar length_squared = result.squaredNorm();
     result -= out_of_plane * geometry.normal;
     // Below this the length has changed by less than rounding.
-    const double lost = out_of_plane * out_of_plane;
-    if (lost > 1e-20 * length_squared && lost < length_squared) {
-        result *= std::sqrt(length_squared / (length_squared - lost));
+    const Scalar lost = out_of_plane * out_of_plane;
+    const auto shorter = lost > 1e-20 * length_squared && lost < length_squared;
+    if (any(shorter)) {
+        using std::sqrt;
+        result *= where(shorter, sqrt(length_squared / (length_squared - lost)), Scalar(1));
     }
     return result;
 }
@@ -81,17 +85,20 @@ struct ReportTangential {
 };
 
 // N/m, tangent k_t; `coefficient` is 8 G* sqrt(R*).
-template <class Normal, class Tangential>
-double shear_stiffness(double coefficient, double root_overlap) {
+template <class Normal, class Tangential, class Scalar>
+[[gnu::always_inline]] inline Scalar shear_stiffness(const Scalar& coefficient, const Scalar& root_overlap) {
     return Tangential::factor * Normal::cube_root_of_factor * coefficient * root_overlap;
 }
 
 // J, energy in the tangential spring: F_t^2/(2 k_t).
-inline double shear_elastic_energy(const Vector& force, double stiffness) {
-    return stiffness > 0 ? 0.5 * force.squaredNorm() / stiffness : 0.0;
+template <class Scalar>
+[[gnu::always_inline]] inline Scalar shear_elastic_energy(const VectorOf<Scalar>& force,
+                                                          const Scalar& stiffness) {
+    return where(stiffness > 0, 0.5 * force.squaredNorm() / stiffness, Scalar(0));
 }
 
-inline double shear_elastic_energy(const ContactMemory& memory) {
+template <class Scalar>
+[[gnu::always_inline]] inline Scalar shear_elastic_energy(const ContactMemoryOf<Scalar>& memory) {
     return shear_elastic_energy(memory.shear_force, memory.shear_stiffness);
 }
 

@@ -8,6 +8,7 @@ usage: yade -n -x cases.py FOLDER-OF-PLAIN-LAW OUTPUT.json count|time
 from __future__ import annotations
 
 import json
+import math
 import sys
 import time
 from collections.abc import Callable
@@ -57,15 +58,15 @@ def run(makers: list, laws: list, extra: list) -> None:
     O.run(WARM_UP, True)
 
 
-def plain(law: str) -> Callable[[], None]:
-    """The build without effects."""
+def plain(law: str, **attributes: Any) -> Callable[[], None]:
+    """The build without effects, or with the one that the attributes of its contacts ask for."""
 
     def build() -> None:
         w = yade.wrapper
         pack(w.FrictMat(frictionAngle=float(np.arctan(FRICTION)), **ELASTIC))
-        restitution = 1.0 if law == "Elastic" else RESTITUTION
-        maker = w.Ip2_FrictMat_FrictMat_PlainPhys(restitution=restitution)
-        run([maker], [getattr(w, f"Law2_ScGeom_PlainPhys_{law}")()], [])
+        restitution = 1.0 if law.endswith("Elastic") else RESTITUTION
+        maker = w.Ip2_FrictMat_FrictMat_PlainPhys(restitution=restitution, **attributes)
+        run([maker], [getattr(w, f"Law2_ScGeom_{law}")()], [])
 
     return build
 
@@ -109,10 +110,15 @@ POWER = dict(muRef=0.5, loadRef=1e-2, exponent=0.1, muMin=0.3, muMax=0.8)
 BRIDGES = dict(gravimetricMoisture=0.01)
 TABLE = dict(loads=[1e-4, 1e-2, 1.0], moistures=[0.0], mu=[0.8, 0.5, 0.3])
 
+#: Two grains' shares of the water [m3], surface tension [N/m]: what our law makes of BRIDGES.
+PLAIN_BRIDGE = [2 * 0.01 * 2.65 * 4 / 3 * math.pi * RADIUS**3 / 6, 0.0728]
+
 PLAIN = {
-    "plain build": plain("Damped"),
-    "plain build, no damping": plain("Elastic"),
-    "plain build, frictionless": plain("Frictionless"),
+    "plain build": plain("PlainPhys_Damped"),
+    "plain build, no damping": plain("PlainPhys_Elastic"),
+    "plain build, frictionless": plain("PlainPhys_Frictionless"),
+    "plain build, power law": plain("PlainPowerLawPhys_Damped", powerLaw=list(POWER.values())),
+    "plain build, liquid bridges": plain("PlainWetPhys_Damped", bridge=PLAIN_BRIDGE),
 }
 OURS = {
     "all effects off": ours(),
@@ -142,6 +148,15 @@ OURS = {
 }
 
 
+def libraries() -> list[str]:
+    """Our own libraries that this process has loaded, and deal.II."""
+    with open("/proc/self/maps", encoding="utf-8") as maps:
+        files = {Path(line.split()[-1]) for line in maps if ".so" in line}
+    return sorted(
+        f.name for f in files if f.parent.name in ("grainfall", "femlink") or "deal.II" in f.name
+    )
+
+
 def build(case: Callable[[], None]) -> dict[str, Any]:
     """A fresh scene of this case; bytes that its bodies and contacts took, contacts, share that slides."""
     O.reset()
@@ -152,6 +167,7 @@ def build(case: Callable[[], None]) -> dict[str, Any]:
         "heap": plain_law.heap_bytes() - before,
         "contacts": len(real),
         "sliding": sum(i.phys.isSliding for i in real) / len(real),
+        "libraries": libraries(),
     }
 
 

@@ -4,47 +4,14 @@
 // need.
 //
 // It also tells callgrind when to count.
+#include "plain_law.hpp"
+
 #include "../../python/module/register_classes.hpp"
-
-#include <laws/friction/constant.hpp>
-#include <laws/hertz_mindlin.hpp>
-#include <laws/pair_rules.hpp>
-#include <laws/yade/contact_rotation.hpp>
-
-#include <core/Body.hpp>
-#include <core/Cell.hpp>
-#include <core/Dispatching.hpp>
-#include <core/Interaction.hpp>
-#include <core/Scene.hpp>
-#include <core/State.hpp>
-#include <pkg/dem/FrictPhys.hpp>
-#include <pkg/dem/ScGeom.hpp>
 
 #include <malloc.h>
 #include <valgrind/callgrind.h>
 
 namespace yade {
-
-namespace gl = grainfall::laws;
-
-class PlainPhys : public FrictPhys {
-public:
-    virtual ~PlainPhys() = default;
-    // clang-format off
-    YADE_CLASS_BASE_DOC_ATTRS_CTOR(PlainPhys, FrictPhys, "Dry contact with constant friction.",
-        ((Real, normalCoefficient, 0, , "4/3 E* sqrt(R*) [N/m^1.5]."))
-        ((Real, shearCoefficient, 0, , "8 G* sqrt(R*) [N/m^1.5]."))
-        ((Real, normalDamping, 0, , "damping coefficient over overlap^0.25 [N s/m^1.25]."))
-        ((Real, shearDamping, 0, , "the same in shear [N s/m^1.25]."))
-        ((Vector3r, shearElastic, Vector3r::Zero(), , "elastic part of the shear force [N]."))
-        ((bool, isSliding, false, , "did the contact slide in the last step?"))
-        ,
-        createIndex();
-    );
-    // clang-format on
-    REGISTER_CLASS_INDEX(PlainPhys, FrictPhys);
-};
-REGISTER_SERIALIZABLE(PlainPhys);
 
 class Ip2_FrictMat_FrictMat_PlainPhys : public IPhysFunctor {
 public:
@@ -63,7 +30,7 @@ public:
             gl::effective_radius(geom.refR1, geom.refR2),
             gl::effective_mass(mass(interaction->getId1()), mass(interaction->getId2())),
             gl::damping_ratio_from_restitution(restitution, false));
-        auto phys = shared_ptr<PlainPhys>(new PlainPhys);
+        const auto phys = make(gl::effective_radius(geom.refR1, geom.refR2));
         phys->normalCoefficient = parameters.normal_coefficient;
         phys->shearCoefficient = parameters.shear_coefficient;
         phys->normalDamping = parameters.normal_damping;
@@ -75,83 +42,34 @@ public:
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS(Ip2_FrictMat_FrictMat_PlainPhys, IPhysFunctor, "Makes plain contacts.",
         ((Real, restitution, 1, , "coefficient of restitution [-]."))
+        ((vector<Real>, powerLaw, , , "muRef [-], loadRef [N], exponent, muMin, muMax [-]; empty: constant friction."))
+        ((vector<Real>, bridge, , , "volume [m3], surface tension [N/m] of a bridge at contact angle 0; empty: dry."))
     );
     // clang-format on
+private:
+    shared_ptr<PlainPhys> make(Real radius) const {
+        if (powerLaw.size() == 5) {
+            const auto phys = shared_ptr<PlainPowerLawPhys>(new PlainPowerLawPhys);
+            phys->curve = {powerLaw[0], powerLaw[1], powerLaw[2], powerLaw[3], powerLaw[4]};
+            return phys;
+        }
+        if (bridge.size() == 2) {
+            const auto phys = shared_ptr<PlainWetPhys>(new PlainWetPhys);
+            phys->bridge = gb::WillettNumeric::curve(2 * radius, bridge[0], bridge[1], 0);
+            phys->rupture_distance = gb::rupture_distance(2 * radius, bridge[0], 0);
+            return phys;
+        }
+        return shared_ptr<PlainPhys>(new PlainPhys);
+    }
 };
 REGISTER_SERIALIZABLE(Ip2_FrictMat_FrictMat_PlainPhys);
 
-// What any law must do in YADE: gather the motion, keep the result, apply the force.
-template <bool sheared, bool damped>
-[[gnu::always_inline]] inline bool plain_step(Scene* scene, ScGeom& geom, PlainPhys& phys,
-                                              Interaction& contact) {
-    if (geom.penetrationDepth < 0)
-        return false;
-    const Body::id_t id1 = contact.getId1(), id2 = contact.getId2();
-    const State& state1 = *Body::byId(id1, scene)->state;
-    const State& state2 = *Body::byId(id2, scene)->state;
-    Vector3r shift2 = Vector3r::Zero();
-    if (scene->isPeriodic)
-        shift2 = scene->cell->intrShiftPos(contact.cellDist);
-    gl::ContactGeometry geometry;
-    geometry.overlap = geom.penetrationDepth;
-    geometry.normal = geom.normal;
-    geometry.shear_increment = geom.shearIncrement();
-    geometry.tilt = contact_tilt(geom);
-    geometry.twist = contact_twist(geom);
-    geometry.time_step = scene->dt;
-    if constexpr (damped) {
-        Vector3r shift_velocity = Vector3r::Zero();
-        if (scene->isPeriodic)
-            shift_velocity = scene->cell->intrShiftVel(contact.cellDist);
-        geometry.normal_velocity =
-            geom.getIncidentVel(&state1, &state2, scene->dt, shift2, shift_velocity, false).dot(geom.normal);
-    }
-    const gl::ContactParameters parameters{phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
-                                           phys.shearDamping};
-    gl::ContactMemory memory;
-    memory.shear_force = phys.shearElastic;
-    memory.shear_stiffness = phys.ks;
-    using Tangential = std::conditional_t<sheared, gl::IncrementalTangential, gl::NoTangential>;
-    using Damping = std::conditional_t<damped, gl::RepulsiveDashpot, gl::NoDamping>;
-    gl::NoEnergy none;
-    const gl::ContactForce force =
-        gl::HertzMindlin<gl::Hertz, Tangential, Damping, gl::friction::Constant, gl::NoEnergy>::step(
-            geometry, parameters, gl::friction::Constant{phys.tangensOfFrictionAngle}, memory, none);
-    phys.kn = force.normal_stiffness;
-    phys.ks = force.shear_stiffness;
-    phys.normalForce = force.normal * geom.normal;
-    phys.shearForce = force.shear;
-    phys.shearElastic = memory.shear_force;
-    phys.isSliding = force.sliding;
-
-    const Vector3r on_2 = phys.normalForce + phys.shearForce;
-    ForceContainer& forces = scene->forces;
-    forces.addForce(id1, -on_2);
-    forces.addForce(id2, on_2);
-    forces.addTorque(id1, -(geom.contactPoint - state1.pos).cross(on_2));
-    forces.addTorque(id2, (geom.contactPoint - state2.pos - shift2).cross(on_2));
-    return true;
-}
-
-#define PLAIN_LAW(name, sheared, damped)                                                                     \
-    class name : public LawFunctor {                                                                         \
-    public:                                                                                                  \
-        virtual ~name() = default;                                                                           \
-        bool go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact) override {    \
-            return plain_step<sheared, damped>(scene, static_cast<ScGeom&>(*geometry),                       \
-                                               static_cast<PlainPhys&>(*physics), *contact);                 \
-        }                                                                                                    \
-        FUNCTOR2D(ScGeom, PlainPhys);                                                                        \
-        YADE_CLASS_BASE_DOC_ATTRS(name, LawFunctor, "The plain contact and nothing else.", );                \
-    };                                                                                                       \
-    REGISTER_SERIALIZABLE(name)
-
-PLAIN_LAW(Law2_ScGeom_PlainPhys_Damped, true, true);
-PLAIN_LAW(Law2_ScGeom_PlainPhys_Elastic, true, false);
-PLAIN_LAW(Law2_ScGeom_PlainPhys_Frictionless, false, true);
+PLAIN_LAW(Law2_ScGeom_PlainPhys_Damped, PlainPhys, (plain_step<true, true, PlainPhys>));
+PLAIN_LAW(Law2_ScGeom_PlainPhys_Elastic, PlainPhys, (plain_step<true, false, PlainPhys>));
+PLAIN_LAW(Law2_ScGeom_PlainPhys_Frictionless, PlainPhys, (plain_step<false, true, PlainPhys>));
 
 YADE_PLUGIN((
-    PlainPhys)(Ip2_FrictMat_FrictMat_PlainPhys)(Law2_ScGeom_PlainPhys_Damped)(Law2_ScGeom_PlainPhys_Elastic)(Law2_ScGeom_PlainPhys_Frictionless));
+    PlainPhys)(PlainPowerLawPhys)(PlainWetPhys)(Ip2_FrictMat_FrictMat_PlainPhys)(Law2_ScGeom_PlainPhys_Damped)(Law2_ScGeom_PlainPhys_Elastic)(Law2_ScGeom_PlainPhys_Frictionless));
 
 } // namespace yade
 

@@ -26,6 +26,7 @@ enum class Term {
     viscous,
     rescaling,
     bridge_rupture,
+    far_field_dissipation,
     numerical_damping,
     imposed_motion,
     permanent_load,
@@ -42,7 +43,7 @@ struct TermName {
 };
 
 // In the order of Term.
-constexpr std::array<TermName, 15> term_names = {{
+constexpr std::array<TermName, 16> term_names = {{
     {Term::kinetic_translation, "kineticTranslation", Kind::stored, nullptr},
     {Term::kinetic_rotation, "kineticRotation", Kind::stored, nullptr},
     {Term::potential, "potential", Kind::stored, nullptr},
@@ -54,6 +55,7 @@ constexpr std::array<TermName, 15> term_names = {{
     {Term::viscous, "viscous", Kind::dissipated, "grainViscous"},
     {Term::rescaling, "rescaling", Kind::dissipated, "grainRescaling"},
     {Term::bridge_rupture, "bridgeRupture", Kind::dissipated, "grainBridge"},
+    {Term::far_field_dissipation, "farFieldDissipation", Kind::dissipated, nullptr},
     {Term::numerical_damping, "numericalDamping", Kind::dissipated, nullptr},
     {Term::imposed_motion, "imposedMotion", Kind::supplied, nullptr},
     {Term::permanent_load, "permanentLoad", Kind::supplied, nullptr},

@@ -36,10 +36,12 @@ struct DashpotMemory {
     Vector shear = Vector::Zero();
 };
 
-// Contacts of one class. Owner: what else belongs to a contact, for the caller.
+// Contacts of one class, all of spheres or all on planes. Owner: what else belongs to a contact, for the
+// caller.
 template <class Owner>
 struct Segment {
     int contact_class = 0;
+    bool on_planes = false;
     std::vector<ContactState> states;
     std::vector<ContactConstants> constants;
     std::vector<DashpotMemory> dashpots; // empty where energies are not booked

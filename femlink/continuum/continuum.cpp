@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <femlink/continuum/continuum.hpp>
+#include <femlink/core/mesh_surface.hpp>
 
 #include <Eigen/IterativeLinearSolvers>
 
@@ -82,31 +83,13 @@ void Continuum::find_held_nodes() {
 }
 
 void Continuum::find_surface() {
-    const auto faces = discretisation_.faces(coupling_surface);
-    std::vector<int> place(discretisation_.node_count(), -1);
-    surface_.degree = discretisation_.degree();
-    surface_.faces.resize(static_cast<Eigen::Index>(faces.front().size()),
-                          static_cast<Eigen::Index>(faces.size()));
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        for (std::size_t k = 0; k < faces[f].size(); ++k) {
-            int& node = place[faces[f][k]];
-            if (node < 0) {
-                node = static_cast<int>(surface_nodes_.size());
-                surface_nodes_.push_back(faces[f][k]);
-            }
-            surface_.faces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(f)) = node;
-        }
-    }
-    surface_.nodes.resize(3, static_cast<Eigen::Index>(surface_nodes_.size()));
-    int loose = 0;
-    for (std::size_t k = 0; k < surface_nodes_.size(); ++k) {
-        surface_.nodes.col(static_cast<Eigen::Index>(k)) = nodes().col(surface_nodes_[k]);
-        const bool held = std::binary_search(held_nodes_.begin(), held_nodes_.end(), surface_nodes_[k]);
-        surface_.loose.push_back(held ? Surface::fixed : loose++);
-    }
-    if (loose == 0)
+    MeshSurface found = surface_of_faces(
+        discretisation_.faces(coupling_surface), discretisation_.degree(), nodes(),
+        [&](int node) { return std::binary_search(held_nodes_.begin(), held_nodes_.end(), node); });
+    surface_ = std::move(found.surface);
+    surface_nodes_ = std::move(found.nodes);
+    if (surface_.loose_count() == 0)
         laws::reject("coupling surface", "held everywhere", "free to move at one node at least");
-    surface_.connect();
 }
 
 void Continuum::order_unknowns() {

@@ -69,6 +69,14 @@ public:
         return matrix_;
     }
 
+    // The next matrix is computed as a whole, in the order in which a new one would be.
+    void forget() {
+        for (const int loose : used_)
+            slot_[loose] = -1;
+        used_.clear();
+        kept_.clear();
+    }
+
     int loaded_nodes() const { return static_cast<int>(used_.size()); }
 
 private:
@@ -144,6 +152,8 @@ private:
 inline Eigen::Matrix3d own_compliance(const Surface& surface, const Eigen::MatrixXd& compliance,
                                       const ContactSite& site) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    if (compliance.size() == 0) // a wall with inertia: no force moves it at once
+        return sum;
     for (std::size_t a = 0; a < site.patch.nodes.size(); ++a) {
         const int row = surface.loose[site.patch.nodes[a]];
         for (std::size_t b = 0; row != Surface::fixed && b < site.patch.nodes.size(); ++b) {

@@ -56,8 +56,8 @@ inline double smallest_jacobian(const HexMesh& mesh, std::size_t cell) {
     return smallest;
 }
 
-// Throws std::invalid_argument: a mesh no wall can be made of.
-inline void validate(const HexMesh& mesh) {
+// Throws std::invalid_argument: cells no continuum can be made of.
+inline void validate_cells(const HexMesh& mesh) {
     const int vertices = static_cast<int>(mesh.vertices.size());
     if (mesh.cells.empty())
         laws::reject("cells", "[]", "a list of at least one hexahedron");
@@ -72,6 +72,11 @@ inline void validate(const HexMesh& mesh) {
             laws::reject("cells[" + std::to_string(c) + "]", "an inverted or flat cell",
                          "a convex hexahedron with right-handed corners");
     }
+}
+
+// Throws std::invalid_argument: a mesh no wall can be made of.
+inline void validate(const HexMesh& mesh) {
+    validate_cells(mesh);
     const auto count = [&](int id) {
         return std::count_if(mesh.boundary.begin(), mesh.boundary.end(),
                              [&](const auto& f) { return f.id == id; });

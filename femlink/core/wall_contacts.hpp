@@ -121,6 +121,12 @@ public:
         return radius - place.normal.dot(centre - unloaded_point(place)) - seen_displacement(site, datum_)[0];
     }
 
+    // The same for a contact that has no site yet, the datum taken at its point.
+    double free_overlap(const SurfaceContact& place, const Point& centre, double radius) const {
+        const Point here = point_of(place, unloaded_) - point_of(place, datum_);
+        return radius - place.normal.dot(centre - here);
+    }
+
     // Solves all contacts; `contacts` in the order of `touches`, empty places included.
     SolverReport solve(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts,
                        const SolverOptions& options) {
@@ -151,6 +157,12 @@ public:
         touch.seen = touch.site.axes * (others - touch.own * touch.force);
     }
 
+    // N, what the touches' forces come to on the nodes.
+    Positions loads_on_nodes(const std::vector<WallTouch>& touches) const {
+        const auto [sites, forces] = loads(touches);
+        return femlink::nodal_forces(surface(), sites, forces);
+    }
+
     // The staggered exchange: the wall under the forces that the law found in the last step, which the
     // touches hold. Returns its gain; from 1 on it diverges.
     double exchange(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts) {
@@ -160,14 +172,20 @@ public:
         return gain;
     }
 
+    // From here on as if read from a file.
+    void forget_matrix() { loaded_.forget(); }
+
     // What the contacts see of the wall as it lies.
     Point seen(const ContactSite& site) const { return site.axes * seen_displacement(site, displacement_); }
 
 private:
-    Point unloaded_point(const SurfaceContact& place) const {
+    Point unloaded_point(const SurfaceContact& place) const { return point_of(place, unloaded_); }
+
+    // Interpolates a field on the nodes.
+    Point point_of(const SurfaceContact& place, const Positions& field) const {
         const Surface& s = surface();
-        return s.degree == 1 ? face_frame<1>(s.face<1>(place.face, unloaded_), place.at).y
-                             : face_frame<2>(s.face<2>(place.face, unloaded_), place.at).y;
+        return s.degree == 1 ? face_frame<1>(s.face<1>(place.face, field), place.at).y
+                             : face_frame<2>(s.face<2>(place.face, field), place.at).y;
     }
 
     static std::pair<std::vector<ContactSite>, Eigen::VectorXd> loads(const std::vector<WallTouch>& touches) {

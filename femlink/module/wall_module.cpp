@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Python module grainfall.femlink._wall: meshes, surfaces, closest points, contact solver, wall files. Needs
-// no deal.II.
+// Python module grainfall.femlink._wall: meshes, surfaces, closest points, contact solver, wall files,
+// explicit continuum. Needs no deal.II.
 #include <femlink/core/compliance.hpp>
 #include <femlink/core/staggered.hpp>
+#include <femlink/module/explicit_bindings.hpp>
 #include <femlink/module/mesh_bindings.hpp>
 #include <femlink/module/surface_bindings.hpp>
 
@@ -167,4 +168,5 @@ PYBIND11_MODULE(_wall, module) {
     grainfall::femlink::bind_surfaces(module);
     grainfall::femlink::bind_model(module);
     grainfall::femlink::bind_wall(module);
+    grainfall::femlink::bind_explicit(module);
 }

@@ -20,10 +20,11 @@ void Bo1_FemFace_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>& bou
     if (!bound)
         bound = shared_ptr<Bound>(new Aabb);
     Vector3r low = face.nodes[0], high = face.nodes[0];
-    for (const Vector3r& node : face.nodes) {
-        low = low.cwiseMin(node);
-        high = high.cwiseMax(node);
-    }
+    for (const auto* nodes : {&face.nodes, &face.unloaded})
+        for (const Vector3r& node : *nodes) {
+            low = low.cwiseMin(node);
+            high = high.cwiseMax(node);
+        }
     // A curved face may bulge beyond its nodes.
     const Real bulge = face.nodes.size() == 9 ? 0.125 : 0;
     const Vector3r room = Vector3r::Constant((margin + bulge) * (high - low).maxCoeff());

@@ -3,6 +3,8 @@
 
 #include <laws/validation.hpp>
 
+#include <algorithm>
+
 namespace yade {
 
 YADE_PLUGIN((FemFace));
@@ -13,10 +15,11 @@ void FemFace::postLoad(FemFace&) {
 }
 
 bool FemFace::has_left_bound() const {
-    for (const Vector3r& node : nodes)
-        if (!((node.array() >= low_.array()).all() && (node.array() <= high_.array()).all()))
-            return true;
-    return false;
+    const auto is_outside = [&](const Vector3r& node) {
+        return !((node.array() >= low_.array()).all() && (node.array() <= high_.array()).all());
+    };
+    return std::any_of(nodes.begin(), nodes.end(), is_outside) ||
+           std::any_of(unloaded.begin(), unloaded.end(), is_outside);
 }
 
 } // namespace yade

@@ -45,6 +45,7 @@ public:
         ":yref:`Law2_FemGeom_GrainPhys_HertzMindlin`. Made by grainfall.femlink.add_wall.",
         ((int, index, -1, Attr::readonly, "Number of the face in its wall."))
         ((vector<Vector3r>, nodes, , , "Nodes [m] as they now lie, the first coordinate running first: 4 (degree 1) or 9 (degree 2)."))
+        ((vector<Vector3r>, unloaded, , , "The same nodes [m] as they lie without contacts: where the face comes back to as soon as a grain leaves it."))
         , createIndex();
     );
     // clang-format on

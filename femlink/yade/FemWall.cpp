@@ -2,8 +2,9 @@
 #include <femlink/yade/FemWall.hpp>
 
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
+#include <femlink/explicit/explicit_continuum.hpp>
 #include <femlink/yade/Ig2_FemFace_Sphere_ScGeom.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/InteractionContainer.hpp>
@@ -13,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 
 namespace yade {
@@ -23,6 +26,13 @@ CREATE_LOGGER(FemWall);
 namespace fl = grainfall::femlink;
 
 namespace {
+
+vector<Vector3r> list_of(const fl::Positions& columns) {
+    vector<Vector3r> list;
+    for (Eigen::Index i = 0; i < columns.cols(); ++i)
+        list.push_back(columns.col(i));
+    return list;
+}
 
 constexpr size_t nowhere = static_cast<size_t>(-1);
 
@@ -35,13 +45,60 @@ Vector3r turned_into_plane(const Vector3r& force, const Vector3r& normal) {
 
 } // namespace
 
-vector<FemWall*> fem_walls(const Scene& scene) {
+namespace {
+
+vector<FemWall*> walls_of(const Scene& scene) {
     vector<FemWall*> walls;
     for (const auto& engine : scene.engines)
         if (auto* wall = dynamic_cast<FemWall*>(engine.get()))
             if (!wall->dead)
                 walls.push_back(wall);
     return walls;
+}
+
+} // namespace
+
+bool is_wall(const Engine& engine) {
+    return dynamic_cast<const FemWall*>(&engine);
+}
+
+bool has_walls(const Scene& scene) {
+    return !walls_of(scene).empty();
+}
+
+void prepare_walls(Scene& scene, const vector<FacePair>& pairs, FunctorLists& functors) {
+    for (FemWall* wall : walls_of(scene)) {
+        wall->scene = &scene;
+        vector<FacePair> own;
+        std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(own),
+                     [&](const FacePair& pair) { return wall->has_face(*pair.face); });
+        wall->prepare(own, functors);
+    }
+}
+
+void prepare_walls(Scene& scene) {
+    for (FemWall* wall : walls_of(scene))
+        wall->prepare_in_scene();
+}
+
+WallEnergies wall_energies(const Scene& scene) {
+    WallEnergies sum;
+    for (const FemWall* wall : walls_of(scene)) {
+        sum.stored += wall->storedEnergy;
+        sum.dissipated += wall->dissipatedEnergy;
+        sum.supplied += wall->boundaryWork;
+    }
+    return sum;
+}
+
+ExchangeLimit exchange_limit(const Scene& scene) {
+    ExchangeLimit least;
+    for (const FemWall* wall : walls_of(scene)) {
+        const ExchangeLimit limit = wall->exchange_limit();
+        if (limit.step < least.step)
+            least = limit;
+    }
+    return least;
 }
 
 void FemWall::validate() const {
@@ -58,11 +115,21 @@ void FemWall::validate() const {
         reject("FemWall.maxSweeps", maxSweeps, ">= 1");
     for (int axis = 0; axis < 3; ++axis)
         require_finite("FemWall.velocity", velocity[axis]);
+    if (continuum && velocity != Vector3r::Zero())
+        reject("FemWall.velocity", velocity.norm(), "0 with a continuum that has inertia");
 }
 
 void FemWall::postLoad(FemWall&) {
     validate();
     wall_.reset();
+    if (continuum) {
+        fl::WallModel model;
+        model.surface = continuum->continuum().surface();
+        model.preload = fl::Positions::Zero(3, model.surface.node_count());
+        wall_ = std::make_unique<fl::QuasiStaticWall>(std::move(model));
+        restore();
+        return;
+    }
     if (file.empty())
         return;
     fl::WallModel model = fl::load_wall(file);
@@ -87,6 +154,8 @@ void FemWall::restore() {
     };
     wall_->put(columns(savedDisplacement), columns(savedForces));
     wall_->put_datum(columns(datum));
+    glide_start_ = columns(savedGlideStart);
+    load_sum_ = columns(savedLoadSum);
     restored_ = true;
     for (size_t i = 0; i < savedTouches.size() && i < savedNumbers.size(); ++i) {
         fl::WallTouch touch;
@@ -119,6 +188,9 @@ void FemWall::preSave(FemWall&) {
     savedNumbers.clear();
     if (!wall_)
         return;
+    savedGlideStart = list_of(glide_start_);
+    savedLoadSum = list_of(load_sum_);
+    wall_->forget_matrix(); // so that this run goes on as the saved one will, to the last bit
     for (int i = 0; i < wall_->surface().node_count(); ++i) {
         savedDisplacement.push_back(wall_->displacement().col(i));
         savedForces.push_back(wall_->nodal_forces().col(i));
@@ -247,6 +319,8 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
     compare_with_law();
     if (preparedStep >= 0)
         shift += scene->dt * velocity;
+    if (continuum && preparedStep >= 0)
+        move_continuum();
     const Vector3r force_before = force;
     for (fl::WallTouch& touch : touches_)
         touch.seen_before = touch.seen;
@@ -260,7 +334,7 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
 
 /// Before the forces of the last step are overwritten.
 void FemWall::compare_with_law() {
-    if (coupling != "implicit")
+    if (coupling != "implicit" || continuum)
         return;
     Real largest = 0, difference = 0;
     for (size_t i = 0; i < touches_.size(); ++i) {
@@ -338,41 +412,37 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     const Body& sphere = *begin->sphere;
     const Real radius = static_cast<const Sphere&>(*sphere.shape).radius;
     const Vector3r centre = sphere.state->pos - shift;
-    vector<int> near;
-    vector<int> held;
-    // A wall that is pressed in comes back as the sphere leaves: what held a contact is looked at further
-    // out.
-    Real reach = radius;
+    vector<int> near, held;
+    // A wall that is pressed in comes back as the load leaves it, so all that is inside the unloaded wall
+    // takes part; a bridge holds on further out.
+    Real reach = radius + largest_displacement_;
     for (auto pair = begin; pair != end; ++pair) {
         const int face = face_of_body_.at(pair->face->id);
         near.push_back(face);
-        if (known_touch(*pair) == nowhere && !pair->contact->isReal())
-            continue;
-        held.push_back(face);
+        const size_t place = known_touch(*pair);
+        if (place != nowhere)
+            held.push_back(face);
+        if (restored_ && place != nowhere)
+            partners_[place].contact = pair->contact;
         const auto* phys = dynamic_cast<const GrainPhys*>(pair->contact->phys.get());
-        const Real bridge = phys && phys->bridge ? 0.5 * radius : 0;
-        reach = std::max(reach, radius + largest_displacement_ + bridge);
+        if (phys && bridge_of(*phys))
+            reach = std::max(reach, 1.5 * radius);
     }
     const auto pair_of = [&](int face) {
         return std::find_if(begin, end,
                             [&](const FacePair& pair) { return face_of_body_.at(pair.face->id) == face; });
     };
-    for (auto pair = begin; restored_ && pair != end; ++pair) {
-        const size_t place = known_touch(*pair);
-        if (place != nowhere)
-            partners_[place].contact = pair->contact;
-    }
     const vector<fl::SurfaceContact> found =
         fl::surface_contacts(wall_->surface(), positions_, near, held, centre, reach);
+    const auto takes_part = [&](const fl::SurfaceContact& contact, bool is_real) {
+        return is_real || contact.distance < radius ||
+               (!continuum && wall_->free_overlap(contact, centre, radius) > 0);
+    };
     vector<char> placed(found.size(), 0);
     for (size_t k = 0; k < found.size(); ++k) { // where they were
         const auto pair = pair_of(found[k].face);
         const size_t place = known_touch(*pair);
-        if (place == nowhere)
-            continue;
-        // One that has parted from the pressed-in wall meets it again while it is inside the unloaded one.
-        const bool inside = wall_->free_overlap(found[k], touches_[place].site, centre, radius) > 0;
-        if (!pair->contact->isReal() && !inside)
+        if (place == nowhere || !takes_part(found[k], pair->contact->isReal()))
             continue;
         follow(place, found[k], *pair);
         placed[k] = 1;
@@ -381,7 +451,8 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         for (const size_t i : places_[sphere.id]) {
             Partner& old = partners_[i];
             if (placed[k] || old.found || !old.contact ||
-                touches_[i].anchor.normal.dot(found[k].normal) < fl::smooth_cosine)
+                touches_[i].anchor.normal.dot(found[k].normal) < fl::smooth_cosine ||
+                !takes_part(found[k], old.contact->isReal()))
                 continue;
             const auto pair = pair_of(found[k].face);
             carry(*old.contact, *pair->contact);
@@ -390,7 +461,7 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         }
     }
     for (size_t k = 0; k < found.size(); ++k) { // new
-        if (placed[k] || !(found[k].distance < radius))
+        if (placed[k] || !takes_part(found[k], false))
             continue;
         const size_t place = new_touch();
         touches_[place].sphere = sphere.id;
@@ -481,7 +552,7 @@ fl::LawContact FemWall::law_contact(size_t place, int steps) const {
         if (ContactClass(grain->contactClass).friction() == FrictionForm::constant)
             out.friction = grain->tangensOfFrictionAngle;
         else
-            out.curve = &grain->curve();
+            out.curve = &grain->effects()->curve();
     } else if (const auto* spring = dynamic_cast<const FrictPhys*>(partner.contact->phys.get())) {
         out.relation.linear = true;
         out.relation.coefficient = spring->kn;
@@ -499,6 +570,10 @@ fl::LawContact FemWall::law_contact(size_t place, int steps) const {
 
 /// All contacts together, or, between two such solutions, each alone.
 void FemWall::solve(bool together) {
+    if (continuum) {
+        see_continuum();
+        return;
+    }
     const bool in_between = coupling == "implicit" && interval > 1;
     const vector<fl::WallTouch> before = together && in_between ? touches_ : vector<fl::WallTouch>();
     vector<fl::LawContact> laws;
@@ -536,22 +611,88 @@ void FemWall::solve(bool together) {
 void FemWall::solve_together(const vector<fl::LawContact>& laws, const fl::SolverOptions& options) {
     const fl::SolverReport report = wall_->solve(touches_, laws, options);
     sweeps = report.sweeps;
-    if (!report.converged)
-        throw std::runtime_error("FemWall: the contacts of step " + std::to_string(scene->iter) +
-                                 " did not converge in " + std::to_string(maxSweeps) +
-                                 " sweeps (last change " + std::to_string(report.change) +
-                                 " of the largest force): raise maxSweeps or tolerance");
+    lastChange = report.change;
+    if (report.converged)
+        return;
+    ++unfinishedSteps;
+    constexpr Real too_much = 0.01;
+    if (!(report.change < too_much))
+        throw std::runtime_error("FemWall: in step " + std::to_string(scene->iter) +
+                                 " forces still change by " + std::to_string(report.change) +
+                                 " of the largest after maxSweeps = " + std::to_string(maxSweeps) +
+                                 " sweeps: raise maxSweeps");
+}
+
+/// Moves on to the present time. In every `interval`-th step under the mean of the forces since the last; the
+/// surface goes there evenly in between.
+void FemWall::move_continuum() {
+    read_law_forces();
+    const fl::Positions loads = wall_->loads_on_nodes(touches_);
+    load_sum_ += loads;
+    ++loadsSummed;
+    fl::ExplicitContinuum& body = continuum->continuum();
+    if (glideStep == 0) {
+        glide_start_ = wall_->displacement();
+        fl::Positions load = load_sum_ / loadsSummed;
+        for (size_t i = 0; i < startForces.size(); ++i)
+            load.col(static_cast<Eigen::Index>(i)) -= startForces[i];
+        body.advance(interval * scene->dt, load);
+        if (scene->trackEnergy) {
+            const fl::ExplicitEnergies energies = body.energies();
+            storedEnergy = energies.kinetic + energies.elastic + energies.hourglass + energies.ground;
+            dissipatedEnergy = energies.plastic + energies.absorbed;
+        }
+        load_sum_.setZero();
+        loadsSummed = 0;
+    }
+    ++glideStep;
+    const Real share = static_cast<Real>(glideStep) / interval;
+    wall_->put(glide_start_ + share * (body.surface_displacement() - glide_start_), loads);
+    if (glideStep >= interval)
+        glideStep = 0;
+}
+
+/// A contact of stiffness k on a patch of mass m = 1/sum(w^2/m_node) swings with k/m at most.
+ExchangeLimit FemWall::exchange_limit() const {
+    ExchangeLimit least;
+    if (!continuum)
+        return least;
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        const fl::ContactPatch& loaded = touches_[i].site.patch;
+        const shared_ptr<Interaction>& touching = partners_[i].contact;
+        const auto* phys = touching ? dynamic_cast<const FrictPhys*>(touching->phys.get()) : nullptr;
+        if (touches_[i].is_empty() || !phys || !(phys->kn > 0))
+            continue;
+        Real inverse_mass = 0;
+        for (size_t a = 0; a < loaded.nodes.size(); ++a)
+            inverse_mass +=
+                loaded.weights[a] * loaded.weights[a] / continuum->continuum().surface_mass(loaded.nodes[a]);
+        const Real step = 2 / std::sqrt(phys->kn * inverse_mass) / interval;
+        if (step < least.step)
+            least = {step, {partners_[i].face->id, partners_[i].sphere->id}};
+    }
+    return least;
+}
+
+/// Contacts on the surface as it now lies; the law's forces of this step move it in the next.
+void FemWall::see_continuum() {
+    force = Vector3r::Zero();
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        fl::WallTouch& touch = touches_[i];
+        if (touch.is_empty())
+            continue;
+        touch.seen = wall_->seen(touch.site);
+        partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
+        force -= touch.site.axes * touch.force;
+    }
+    solvedStep = scene->iter;
+    positions_ = wall_->positions();
+    largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
 }
 
 /// The report's exchange: the law's forces of the last step displace the wall of this one.
 void FemWall::exchange(const vector<fl::LawContact>& laws) {
-    for (size_t i = 0; i < touches_.size(); ++i) {
-        const auto* phys = touches_[i].is_empty()
-                               ? nullptr
-                               : dynamic_cast<const FrictPhys*>(partners_[i].contact->phys.get());
-        if (phys)
-            touches_[i].force = touches_[i].site.axes.transpose() * (phys->normalForce + phys->shearForce);
-    }
+    read_law_forces();
     const Real gain = wall_->exchange(touches_, laws);
     if (gain >= 1)
         grainfall::laws::reject(
@@ -559,6 +700,19 @@ void FemWall::exchange(const vector<fl::LawContact>& laws) {
             "'implicit' here: the contacts' stiffness times the wall's compliance is " +
                 std::to_string(gain) +
                 ", and exchanging forces step by step diverges from 1 on, whatever the time step");
+}
+
+/// Those of the last step into the touches.
+void FemWall::read_law_forces() {
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        if (touches_[i].is_empty())
+            continue;
+        const shared_ptr<Interaction>& contact = partners_[i].contact;
+        const auto* phys = contact ? dynamic_cast<const FrictPhys*>(contact->phys.get()) : nullptr;
+        touches_[i].force = Vector3r::Zero();
+        if (phys)
+            touches_[i].force = touches_[i].site.axes.transpose() * (phys->normalForce + phys->shearForce);
+    }
 }
 
 FaceTouch FemWall::face_touch(size_t place) const {
@@ -582,10 +736,12 @@ void FemWall::write_faces() {
         FemFace& shape = *shapes_[f];
         shape.touches.clear();
         shape.nodes.resize(static_cast<size_t>(surface.faces.rows()));
-        for (size_t k = 0; k < shape.nodes.size(); ++k)
-            shape.nodes[k] =
-                positions_.col(surface.faces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(f))) +
-                shift;
+        shape.unloaded.resize(shape.nodes.size());
+        for (size_t k = 0; k < shape.nodes.size(); ++k) {
+            const int node = surface.faces(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(f));
+            shape.nodes[k] = positions_.col(node) + shift;
+            shape.unloaded[k] = wall_->unloaded().col(node) - wall_->datum().col(node) + shift;
+        }
         moved |= shape.has_left_bound();
     }
     for (size_t i = 0; i < touches_.size(); ++i)

@@ -14,22 +14,16 @@
 #include <core/GlobalEngine.hpp>
 #include <core/Interaction.hpp>
 
-#include <engines/flat/yade/functor_lists.hpp>
 #include <femlink/core/wall_contacts.hpp>
+#include <femlink/yade/ExplicitFarField.hpp>
 #include <femlink/yade/FemFace.hpp>
+#include <femlink/yade/scene_walls.hpp>
 #include <laws/yade/attribute_checks.hpp>
 
 #include <map>
 #include <memory>
 
 namespace yade {
-
-/// A face and a sphere that are near each other.
-struct FacePair {
-    shared_ptr<Interaction> contact; // body 1: the face
-    Body* face;
-    Body* sphere;
-};
 
 class FemWall : public GlobalEngine {
 public:
@@ -54,9 +48,9 @@ public:
     /// spheres): its faces take them over, and it is where it is under their forces.
     void take_over(const vector<int>& face_ids, const vector<int>& spheres, const vector<Vector3r>& shear);
 
-    Real stored_energy() const { return storedEnergy; }
-    /// J that moving the outer boundary has supplied.
-    Real supplied_energy() const { return boundaryWork; }
+    /// Infinite for walls without inertia.
+    ExchangeLimit exchange_limit() const;
+
     boost::python::list node_positions();
     boost::python::list node_displacements();
     boost::python::list node_forces();
@@ -72,17 +66,20 @@ public:
         ((string, file, "", Attr::readonly, "Wall file (grainfall.femlink.WallModel.save) with surface and compliance."))
         ((string, key, "", Attr::readonly, "Key of the wall in the file: of mesh, materials and loads."))
         ((vector<int>, faces, , Attr::readonly, "Ids of the bodies that are its faces, in their order in the file."))
+        ((shared_ptr<ExplicitFarField>, continuum, , Attr::readonly, "Continuum with inertia, in the place of a file; None for a quasi-static wall."))
         ((string, coupling, "implicit", , "'implicit': forces and displacement of a step are solved for together, stable for any stiffness; 'staggered': the wall takes the forces of the step before, as "
           "in the report; refused where that must diverge."))
         ((int, interval, 1, , "Solve for all contacts together in every n-th step [-], >= 1. In between each contact is solved alone, what the others do to the wall there going evenly to what the last such solution found."))
         ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
-        ((Real, drift, 0.005, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
-        ((Real, tolerance, 1e-8, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
-        ((int, maxSweeps, 2000, , "Sweeps after which the solver gives up [-], >= 1; the run then stops with an error."))
+        ((Real, drift, 0.002, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
+        ((Real, tolerance, 1e-6, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
+        ((int, maxSweeps, 300, , "Sweeps after which the solver goes on as it is [-], >= 1; if forces then still change by more than 1 % of the largest, the run stops with an error."))
         ((Vector3r, velocity, Vector3r::Zero(), , "Velocity [m/s] of the outer boundary, and with it of the whole wall as a rigid body."))
         ((Vector3r, shift, Vector3r::Zero(), Attr::readonly, "How far the outer boundary has moved [m]."))
         ((int, contacts, 0, Attr::readonly, "Contacts in the last step."))
         ((int, sweeps, 0, Attr::readonly, "Sweeps of the solver in the last step that solved."))
+        ((Real, lastChange, 0, Attr::readonly, "Largest change of a force in the last sweep over the largest force [-]."))
+        ((long, unfinishedSteps, 0, Attr::readonly, "Steps in which the tolerance was not reached within maxSweeps."))
         ((Real, disagreement, 0, Attr::readonly, "Largest difference in the last step but one between the force that the wall was solved for and that of the law, over the largest force [-]."))
         ((Real, boundaryWork, 0, Attr::readonly, "Work [J] that moving the outer boundary has supplied."))
         ((Real, storedEnergy, 0, Attr::readonly, "Strain energy that the contacts have put into the wall [J]."))
@@ -90,6 +87,12 @@ public:
         ((vector<Vector3r>, datum, , Attr::readonly, "Displacement [m] of the nodes that counts as none: that under the forces which :yref:`takeOver<FemWall.takeOver>` found. Empty: zero."))
         ((long, preparedStep, -1, Attr::hidden, "Last step that contacts were looked for in."))
         ((long, solvedStep, -1, Attr::hidden, "Last step that the wall was solved for."))
+        ((vector<Vector3r>, startForces, , Attr::readonly, "Forces [N] on the nodes that a continuum with inertia is at rest under: those which :yref:`takeOver<FemWall.takeOver>` found. Empty: zero."))
+        ((Real, dissipatedEnergy, 0, Attr::readonly, "Energy [J] that a continuum with inertia has lost to plastic flow and through its absorbing boundary."))
+        ((int, glideStep, 0, Attr::hidden, "Steps since the continuum was moved on."))
+        ((int, loadsSummed, 0, Attr::hidden, "Steps in savedLoadSum."))
+        ((vector<Vector3r>, savedGlideStart, , Attr::hidden, "Displacement of the nodes when the continuum was moved on."))
+        ((vector<Vector3r>, savedLoadSum, , Attr::hidden, "Sum of the nodes' forces since then."))
         ((vector<Vector3r>, savedDisplacement, , Attr::hidden, "Of the nodes, at the last step."))
         ((vector<Vector3r>, savedForces, , Attr::hidden, "On the nodes, at the last step."))
         ((vector<Vector3i>, savedTouches, , Attr::hidden, "Sphere, face of the contact and face of its anchor; -1 for an empty place."))
@@ -130,6 +133,7 @@ private:
     vector<Partner> partners_;
     grainfall::femlink::Positions positions_; // of the surface's nodes, without `shift`
     Real largest_displacement_ = 0;
+    grainfall::femlink::Positions glide_start_, load_sum_;
     std::map<Body::id_t, vector<size_t>> places_; // in touches_, by sphere
     bool restored_ = false;                       // interactions not known yet
     FunctorLists lists_;                          // on YADE's own loop
@@ -153,6 +157,9 @@ private:
     void solve(bool together);
     void solve_together(const vector<grainfall::femlink::LawContact>& laws,
                         const grainfall::femlink::SolverOptions& options);
+    void move_continuum();
+    void see_continuum();
+    void read_law_forces();
     void exchange(const vector<grainfall::femlink::LawContact>& laws);
     void settle();
     void write_faces();
@@ -160,8 +167,5 @@ private:
     Real radius_of(size_t place) const;
 };
 REGISTER_SERIALIZABLE(FemWall);
-
-/// Walls that act in a scene.
-vector<FemWall*> fem_walls(const Scene& scene);
 
 } // namespace yade

@@ -87,6 +87,14 @@ void FemWall::settle() {
         wall_->solve_alone(touch, law_contact(i), options);
         touch.own = own;
     }
+    if (continuum) { // its stress at rest is not known, only that it balances these forces
+        const fl::Positions still = fl::Positions::Zero(3, wall_->surface().node_count());
+        wall_->put(still, wall_->loads_on_nodes(touches_));
+        startForces.clear();
+        for (Eigen::Index i = 0; i < still.cols(); ++i)
+            startForces.push_back(wall_->nodal_forces().col(i));
+        return;
+    }
     wall_->settle_under(touches_);
     datum.clear();
     for (int i = 0; i < wall_->surface().node_count(); ++i)

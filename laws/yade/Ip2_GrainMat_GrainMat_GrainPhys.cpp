@@ -153,7 +153,9 @@ int Ip2_GrainMat_GrainMat_GrainPhys::renew_contacts() {
         interaction->phys.reset();
         go(Body::byId(interaction->getId1(), scene)->material,
            Body::byId(interaction->getId2(), scene)->material, interaction);
-        static_cast<GrainPhys&>(*interaction->phys).go_on_from(*before);
+        GrainPhys& renewed_phys = slip_of(*before) ? GrainEffectPhys::of(*interaction)
+                                                   : static_cast<GrainPhys&>(*interaction->phys);
+        renewed_phys.go_on_from(*before);
         ++renewed;
     }
     return renewed;
@@ -183,29 +185,37 @@ void Ip2_GrainMat_GrainMat_GrainPhys::go(const shared_ptr<Material>& m1, const s
         gl::effective_mass(contact_mass(body1, scene), contact_mass(body2, scene)),
         gl::damping_ratio_from_restitution(restitution, dashpotAttraction));
 
-    auto phys = shared_ptr<GrainPhys>(new GrainPhys);
+    const Real moisture = std::max(mat1.gravimetricMoisture, mat2.gravimetricMoisture);
+    const Real load_scale = gl::load_scale(radius1, mat1.referenceRadius, radius2, mat2.referenceRadius);
+    const PairFriction friction(pair_friction(mat1, mat2, pair), moisture, load_scale);
+    const shared_ptr<LiquidBridge> bridge =
+        LiquidBridge::between({mat1, body1, radius1, contact_mass(body1, scene)},
+                              {mat2, body2, radius2, contact_mass(body2, scene)}, std::sqrt(load_scale));
+
+    shared_ptr<GrainPhys> phys;
+    if (friction.curve || bridge) {
+        const auto effects = shared_ptr<GrainEffectPhys>(new GrainEffectPhys);
+        effects->moisture = moisture;
+        effects->loadScale = load_scale;
+        effects->set_friction(friction);
+        effects->bridge = bridge;
+        phys = effects;
+    } else {
+        phys = shared_ptr<GrainPhys>(new GrainPhys);
+    }
     phys->normalCoefficient = parameters.normal_coefficient;
     phys->shearCoefficient = parameters.shear_coefficient;
     phys->normalDamping = parameters.normal_damping;
     phys->shearDamping = parameters.shear_damping;
-    phys->moisture = std::max(mat1.gravimetricMoisture, mat2.gravimetricMoisture);
-    phys->loadScale = gl::load_scale(radius1, mat1.referenceRadius, radius2, mat2.referenceRadius);
-    phys->friction = pair_friction(mat1, mat2, pair);
-    phys->resolve_friction();
+    phys->tangensOfFrictionAngle = friction.constant;
 
-    const FrictionForm form = phys->simplified_friction();
     const DashpotForm dashpot = restitution == 1    ? DashpotForm::none
                                 : dashpotAttraction ? DashpotForm::attractive
                                                     : DashpotForm::repulsive;
-    phys->bridge =
-        LiquidBridge::between({mat1, body1, radius1, contact_mass(body1, scene)},
-                              {mat2, body2, radius2, contact_mass(body2, scene)}, std::sqrt(phys->loadScale));
-    BridgeKind bridge = BridgeKind::none;
-    if (phys->bridge) {
-        bridge = phys->bridge->kind();
-        warn_beyond_pendular(*phys->bridge, mat1, mat2);
-    }
-    phys->contactClass = ContactClass(form, dashpot, bridge).index;
+    if (bridge)
+        warn_beyond_pendular(*bridge, mat1, mat2);
+    const BridgeKind kind = bridge ? bridge->kind() : BridgeKind::none;
+    phys->contactClass = ContactClass(friction.form, dashpot, kind).index;
     interaction->phys = phys;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <laws/yade/GrainMat.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 
 #include <atomic>
 
@@ -58,7 +58,7 @@ public:
     FUNCTOR2D(GrainMat, GrainMat);
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(Ip2_GrainMat_GrainMat_GrainPhys, IPhysFunctor,
-        "Creates :yref:`GrainPhys` from two :yref:`GrainMat`. Walls, boxes and facets count as flat (infinite radius) whatever "
+        "Creates :yref:`GrainPhys` or :yref:`GrainEffectPhys` from two :yref:`GrainMat`. Walls, boxes and facets count as flat (infinite radius) whatever "
         "radius their geometry functor reports, so that they have Hertz's full stiffness; non-spherical grains (level sets, "
         "polyhedra) count with the radius of the sphere of equal volume (MR-2629, below Eq 3). A contact is as wet as the wetter "
         "of its materials. Where there is water the contact gets a :yref:`LiquidBridge`.",

@@ -40,9 +40,9 @@ const Law2_ScGeom_GrainPhys_HertzMindlin* Law2_ScGeom_GrainPhys_HertzMindlin::ac
 
 bool Law2_ScGeom_GrainPhys_HertzMindlin::go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
                                             Interaction* interaction) {
-    auto& phys = static_cast<GrainPhys&>(*physics);
+    const auto& phys = static_cast<const GrainPhys&>(*physics);
     const Kernel kernel = (*kernels_[scene->trackEnergy])[phys.contactClass];
-    return kernel(*this, static_cast<ScGeom&>(*geometry), phys, *interaction);
+    return kernel(*this, geometry, physics, interaction);
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::validate() const {

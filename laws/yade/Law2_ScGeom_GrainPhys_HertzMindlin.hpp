@@ -3,16 +3,24 @@
 #pragma once
 
 #include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/attribute_checks.hpp>
 
 #include <array>
 #include <atomic>
 #include <mutex>
+#include <type_traits>
 
 #include <core/Dispatching.hpp>
 #include <core/Scene.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 namespace yade {
+
+/// The base that declares go(), through which YADE calls a law. Kernels are handed it as it came: turning it
+/// into the law beforehand and saving the result are instructions in every contact.
+template <class Base>
+Base& declares_go(bool (Base::*)(shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*));
+using LawEntry = std::remove_reference_t<decltype(declares_go(&LawFunctor::go))>;
 
 class Law2_ScGeom_GrainPhys_HertzMindlin : public LawFunctor {
 public:
@@ -25,7 +33,7 @@ public:
     void postLoad(Law2_ScGeom_GrainPhys_HertzMindlin&);
 
     /// One contact, one step; false when the bodies have parted.
-    using Kernel = bool (*)(Law2_ScGeom_GrainPhys_HertzMindlin&, ScGeom&, GrainPhys&, Interaction&);
+    using Kernel = bool (*)(LawEntry&, shared_ptr<IGeom>&, shared_ptr<IPhys>&, Interaction*);
     /// One kernel for each contact class.
     using KernelTable = std::array<Kernel, ContactClass::count>;
 

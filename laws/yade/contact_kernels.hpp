@@ -3,6 +3,7 @@
 #pragma once
 
 #include <laws/hertz_mindlin.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 #include <laws/yade/contact_rotation.hpp>
 #include <laws/yade/kernel_table.hpp>
@@ -57,25 +58,30 @@ inline void recall(const GrainPhys& phys, gl::ContactMemory& memory) {
 }
 inline void recall(const GrainPhys& phys, gl::PartialSlipMemory& memory) {
     recall(phys, static_cast<gl::ContactMemory&>(memory));
-    if (phys.partialSlip)
-        phys.partialSlip->recall(memory.history);
+    if (const PartialSlip* slip = slip_of(phys))
+        slip->recall(memory.history);
 }
 inline void keep(GrainPhys& phys, const gl::ContactMemory& memory) {
     phys.shearElastic = memory.shear_force;
 }
 inline void keep(GrainPhys& phys, const gl::PartialSlipMemory& memory) {
     keep(phys, static_cast<const gl::ContactMemory&>(memory));
-    if (!phys.partialSlip)
-        phys.partialSlip = shared_ptr<PartialSlip>(new PartialSlip);
-    phys.partialSlip->keep(memory.history);
+    phys.effects()->keep_slip(memory.history);
 }
 
-[[gnu::always_inline]] inline void apply_force(Law& law, const Vector3r& force_on_2, const ScGeom& geom,
-                                               const Interaction& contact, const State& state1,
-                                               const State& state2, const Vector3r& shift2) {
-    ForceContainer& forces = law.scene->forces;
-    const Body::id_t id1 = contact.getId1();
-    const Body::id_t id2 = contact.getId2();
+/// The contact with room for what the kernel keeps in it.
+template <class Memory>
+GrainPhys& with_room(GrainPhys& phys, Interaction& contact) {
+    if constexpr (std::is_same_v<Memory, gl::PartialSlipMemory>)
+        return GrainEffectPhys::of(contact);
+    else
+        return phys;
+}
+
+[[gnu::always_inline]] inline void apply_force(ForceContainer& forces, const Vector3r& force_on_2,
+                                               const ScGeom& geom, Body::id_t id1, Body::id_t id2,
+                                               const State& state1, const State& state2,
+                                               const Vector3r& shift2) {
     forces.addForce(id1, -force_on_2);
     forces.addForce(id2, force_on_2);
     forces.addTorque(id1, -(geom.contactPoint - state1.pos).cross(force_on_2));
@@ -83,31 +89,38 @@ inline void keep(GrainPhys& phys, const gl::PartialSlipMemory& memory) {
 }
 
 /// Constant friction is a number that every YADE law keeps in the same place; the other curves are held by
-/// the contact.
+/// the contact, and its class, which chose this kernel, tells of which form it is.
 template <class Friction>
 decltype(auto) friction_of(const GrainPhys& phys) {
-    if constexpr (std::is_same_v<Friction, gl::friction::Constant>)
+    if constexpr (std::is_same_v<Friction, gl::friction::Constant>) {
         return gl::friction::Constant{phys.tangensOfFrictionAngle};
-    else if constexpr (std::is_same_v<Friction, gl::friction::Any>)
-        return (phys.curve());
-    else
-        return (*std::get_if<Friction>(&phys.curve().curve()));
+    } else if constexpr (std::is_same_v<Friction, gl::friction::Any>) {
+        return (static_cast<const GrainEffectPhys&>(phys).curve());
+    } else {
+        const auto* curve = std::get_if<Friction>(&static_cast<const GrainEffectPhys&>(phys).curve().curve());
+        if (!curve)
+            __builtin_unreachable();
+        return (*curve);
+    }
 }
 
 template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
+[[gnu::always_inline]] inline bool inlined_step(Law& law, const ScGeom& geom, GrainPhys& given,
+                                                Interaction& contact) {
     using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
-    const Scene& scene = *law.scene;
     if (geom.penetrationDepth < 0) {
         if constexpr (Energy::active && Tangential::active) {
             typename ContactLaw::Memory memory;
-            recall(phys, memory);
+            recall(given, memory);
             law.book(0, 0, gl::shear_elastic_energy(memory), 0);
         }
         return false;
     }
-    const State& state1 = *Body::byId(contact.getId1(), law.scene)->state;
-    const State& state2 = *Body::byId(contact.getId2(), law.scene)->state;
+    Scene& scene = *law.scene;
+    GrainPhys& phys = with_room<typename ContactLaw::Memory>(given, contact);
+    const Body::id_t id1 = contact.getId1(), id2 = contact.getId2();
+    const State& state1 = *Body::byId(id1, &scene)->state;
+    const State& state2 = *Body::byId(id2, &scene)->state;
     Vector3r shift2 = Vector3r::Zero();
     if (scene.isPeriodic)
         shift2 = scene.cell->intrShiftPos(contact.cellDist);
@@ -151,22 +164,46 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
     phys.kn = force.normal_stiffness;
     phys.ks = force.shear_stiffness;
     phys.normalForce = force.normal * geom.normal;
+    phys.isSliding = force.sliding;
     if constexpr (Tangential::active) {
         phys.shearForce = force.shear;
         keep(phys, memory);
-        phys.isSliding = force.sliding;
+        const Vector3r force_on_2 = phys.normalForce + phys.shearForce;
+        apply_force(scene.forces, force_on_2, geom, id1, id2, state1, state2, shift2);
     } else {
         // Another law may have acted before.
-        phys.shearForce = phys.shearElastic = Vector3r::Zero();
+        phys.shearForce = Vector3r::Zero();
+        phys.shearElastic = Vector3r::Zero();
+        apply_force(scene.forces, phys.normalForce, geom, id1, id2, state1, state2, shift2);
     }
-    apply_force(law, phys.normalForce + phys.shearForce, geom, contact, state1, state2, shift2);
     return true;
+}
+
+template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact) {
+    return inlined_step<Normal, Tangential, Damping, Friction, Energy>(
+        static_cast<Law&>(entry), static_cast<const ScGeom&>(*geometry), static_cast<GrainPhys&>(*physics),
+        *contact);
+}
+
+/// Left to itself, the compiler passes some vectors of the contact through memory. It does so with this order
+/// too where the same translation unit has kernels without it.
+template <class Normal, class Tangential, class Damping, class Friction, class Energy>
+[[gnu::flatten]] bool flat_step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
+                                Interaction* contact) {
+    return inlined_step<Normal, Tangential, Damping, Friction, Energy>(
+        static_cast<Law&>(entry), static_cast<const ScGeom&>(*geometry), static_cast<GrainPhys&>(*physics),
+        *contact);
 }
 
 struct StepMaker {
     template <class Normal, class Tangential, class Damping, class Friction, class Energy>
     static Law::Kernel kernel() {
-        return &step<Normal, Tangential, Damping, Friction, Energy>;
+        // The history of partial slip is too long a code to be worth it.
+        if constexpr (std::is_same_v<Tangential, gl::PartialSlipTangential>)
+            return &step<Normal, Tangential, Damping, Friction, Energy>;
+        else
+            return &flat_step<Normal, Tangential, Damping, Friction, Energy>;
     }
 };
 

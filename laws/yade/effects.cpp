@@ -3,7 +3,7 @@
 
 #include <laws/yade/ContactClass.hpp>
 #include <laws/yade/GrainMat.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/Interaction.hpp>
@@ -117,8 +117,12 @@ std::string contacts_now(int contacts) {
 void add_contacts(EffectList& list, const Scene& scene, bool frictional) {
     int moist = 0, scaled = 0;
     const Counts counts = count_contacts(scene, [&](const GrainPhys& phys) {
-        moist += phys.friction && phys.moisture > 0 && phys.friction->depends_on_moisture();
-        scaled += phys.loadScale != 1 && ((frictional && phys.friction) || phys.bridge);
+        const GrainEffectPhys* carried = phys.effects();
+        if (!carried)
+            return;
+        const shared_ptr<FrictionCurve>& curve = carried->friction;
+        moist += curve && carried->moisture > 0 && curve->depends_on_moisture();
+        scaled += carried->loadScale != 1 && ((frictional && curve) || carried->bridge);
     });
     for (int index = 0; index < ContactClass::count; ++index) {
         const int contacts = counts[static_cast<std::size_t>(index)];

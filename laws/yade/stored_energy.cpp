@@ -2,7 +2,7 @@
 #include <laws/yade/stored_energy.hpp>
 
 #include <laws/partial_slip.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 
 #include <core/Interaction.hpp>
 #include <core/InteractionContainer.hpp>
@@ -21,8 +21,8 @@ StoredEnergy stored_energy(const Interaction& contact) {
     const auto* geom = dynamic_cast<const ScGeom*>(contact.geom.get());
     if (!phys || !geom)
         return energy;
-    if (phys->bridge)
-        energy.bridge = phys->bridge->work;
+    if (const LiquidBridge* bridge = bridge_of(*phys))
+        energy.bridge = bridge->work;
     // YADE does not save the overlap: in a scene just loaded it follows from F = 2/3 kn d, dashpot neglected.
     const bool loaded = std::isnan(geom->penetrationDepth) && phys->kn > 0;
     const Real overlap = loaded ? 1.5 * phys->normalForce.norm() / phys->kn : geom->penetrationDepth;
@@ -33,8 +33,8 @@ StoredEnergy stored_energy(const Interaction& contact) {
     grainfall::laws::PartialSlipMemory memory;
     memory.shear_force = phys->shearElastic;
     memory.shear_stiffness = phys->ks;
-    if (phys->partialSlip)
-        phys->partialSlip->recall(memory.history);
+    if (const PartialSlip* slip = slip_of(*phys))
+        slip->recall(memory.history);
     energy.shear = grainfall::laws::shear_elastic_energy(memory);
     return energy;
 }

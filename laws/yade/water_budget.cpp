@@ -4,7 +4,7 @@
 #include <laws/bridge/geometry.hpp>
 #include <laws/bridge/water.hpp>
 #include <laws/yade/GrainMat.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 
 #include <core/Body.hpp>
 #include <core/BodyContainer.hpp>
@@ -34,9 +34,10 @@ Bridges take_stock(const Scene& scene) {
         if (!contact->isReal())
             continue;
         const auto* phys = dynamic_cast<const GrainPhys*>(contact->phys.get());
-        if (!phys || !phys->bridge || !phys->bridge->formed)
+        const LiquidBridge* held = phys ? bridge_of(*phys) : nullptr;
+        if (!held || !held->formed)
             continue;
-        const LiquidBridge& bridge = *phys->bridge;
+        const LiquidBridge& bridge = *held;
         ++sum.count;
         sum.beyond_pendular += bridge.relativeVolume > gb::largest_pendular_volume;
         sum.beyond_fit += bridge.relativeVolume > gb::largest_fitted_volume;

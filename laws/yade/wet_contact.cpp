@@ -12,25 +12,31 @@ namespace {
 namespace gb = grainfall::laws::bridge;
 
 /// The dry contact while the bodies touch, and in the step in which they part, for its books.
-void solid_contact(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact, bool booking) {
+void solid_contact(Law& law, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact,
+                   bool booking) {
+    auto& phys = static_cast<GrainEffectPhys&>(*physics);
     const bool was_touching = phys.kn > 0;
-    if (geom.penetrationDepth < 0 && !was_touching)
+    if (static_cast<const ScGeom&>(*geometry).penetrationDepth < 0 && !was_touching)
         return;
-    if (!law.dry_kernel(phys, booking)(law, geom, phys, contact))
+    if (!law.dry_kernel(phys, booking)(law, geometry, physics, contact))
         phys.part();
 }
 
 template <class Form, class Film, class Energy>
-bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
-    solid_contact(law, geom, phys, contact, Energy::active);
+bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact) {
+    Law& law = static_cast<Law&>(entry);
+    solid_contact(law, geometry, physics, contact, Energy::active);
+    const auto& geom = static_cast<const ScGeom&>(*geometry);
+    auto& phys = static_cast<GrainEffectPhys&>(*physics);
+    Scene& scene = *law.scene;
 
-    const State& state1 = *Body::byId(contact.getId1(), law.scene)->state;
-    const State& state2 = *Body::byId(contact.getId2(), law.scene)->state;
-    const Scene& scene = *law.scene;
+    const Body::id_t id1 = contact->getId1(), id2 = contact->getId2();
+    const State& state1 = *Body::byId(id1, &scene)->state;
+    const State& state2 = *Body::byId(id2, &scene)->state;
     Vector3r shift2 = Vector3r::Zero(), shift_velocity = Vector3r::Zero();
     if (scene.isPeriodic) {
-        shift2 = scene.cell->intrShiftPos(contact.cellDist);
-        shift_velocity = scene.cell->intrShiftVel(contact.cellDist);
+        shift2 = scene.cell->intrShiftPos(contact->cellDist);
+        shift_velocity = scene.cell->intrShiftVel(contact->cellDist);
     }
     Real normal_velocity = 0;
     if constexpr (Film::active || Energy::active) {
@@ -51,7 +57,8 @@ bool step(Law& law, ScGeom& geom, GrainPhys& phys, Interaction& contact) {
             law.book_bridge(book.rupture);
     }
     if (state == gb::BridgeState::holding) {
-        kernels::apply_force(law, bridge.normal_force() * geom.normal, geom, contact, state1, state2, shift2);
+        kernels::apply_force(scene.forces, bridge.normal_force() * geom.normal, geom, id1, id2, state1,
+                             state2, shift2);
     }
     return state != gb::BridgeState::ended;
 }

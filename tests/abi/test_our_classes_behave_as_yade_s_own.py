@@ -169,7 +169,7 @@ def test_a_scene_goes_on_after_loading_as_if_it_had_never_stopped(ending, tmp_pa
         O.reset()
         O.load(str(tmp_path / f"scene.{ending}"))
     contact = O.interactions[0, 1].phys
-    assert type(contact).__name__ == "GrainPhys"
+    assert type(contact).__name__ == "GrainEffectPhys"
     assert contact.friction.muRef == O.materials["sand"].friction.muRef == 0.5
     O.run(50, True)
     reached = (O.bodies[1].state.pos, O.interactions[0, 1].phys.normalForce)

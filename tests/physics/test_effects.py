@@ -14,8 +14,10 @@ from grainfall.materials import check_scene
 from priced_heap import heap
 from yade import (
     ConstantFriction,
+    GrainEffectPhys,
     GrainMat,
     GrainPair,
+    GrainPhys,
     MoistureFactor,
     O,
     PowerLawFriction,
@@ -114,6 +116,20 @@ def test_a_table_with_one_load_is_a_constant_and_runs_as_one():
     assert phys.friction is None
     assert math.tan(phys.tangensOfFrictionAngle) > 0
     assert phys.tangensOfFrictionAngle == pytest.approx(0.4, rel=1e-12)
+
+
+def test_a_contact_without_effects_has_no_places_for_them():
+    """In a bed with one moist layer: what a dry contact shows of effects is nothing, not an empty place."""
+    bed_with_a_wet_layer()
+    effects = {"friction", "moisture", "loadScale", "partialSlip", "bridge"}
+    for i in O.interactions:
+        wet = 3 in (i.id1, i.id2)
+        assert isinstance(i.phys, GrainPhys)
+        assert isinstance(i.phys, GrainEffectPhys) == wet
+        assert effects & set(i.phys.dict()) == (effects if wet else set())
+    dry = O.interactions[0, 1].phys
+    assert [dry.friction, dry.partialSlip, dry.bridge] == [None] * 3
+    assert (dry.moisture, dry.loadScale) == (0, 1)
 
 
 WET = dict(gravimetricMoisture=0.005)

@@ -248,6 +248,32 @@ def test_switching_the_flat_path_off_and_on_in_a_run_changes_nothing():
     assert_equal((switched, scenes.state()), MANY_STEPS)
 
 
+def test_a_law_changed_under_way_takes_over_the_forces_alike_on_both_paths():
+    """Contacts made by a law without memory of slip get one where they are, and keep what they were made with."""
+
+    def made_with() -> dict[tuple[int, int], tuple[float, ...]]:
+        names = ("normalCoefficient", "shearCoefficient", "normalDamping", "tangensOfFrictionAngle")
+        real = (i for i in O.interactions if i.isReal)
+        return {(i.id1, i.id2): tuple(getattr(i.phys, n) for n in names) for i in real}
+
+    results = []
+    for flat in (True, False):
+        O.reset()
+        build(flat)
+        O.run(100, True)
+        before = made_with()
+        O.engines[2].lawDispatcher.functors[0].tangentialLaw = "mindlin-deresiewicz"
+        O.run(1, True)
+        after = made_with()
+        both = before.keys() & after.keys()
+        assert len(both) > 20
+        assert all(before[pair] == after[pair] for pair in both)
+        assert all(O.interactions[pair].phys.partialSlip is not None for pair in both)
+        O.run(199, True)
+        results.append(scenes.state())
+    assert_equal((results[0], results[1]), MANY_STEPS)
+
+
 def test_what_cannot_run_flat_runs_on_the_general_path_and_says_why():
     def clumps() -> None:
         build(True)

@@ -26,7 +26,10 @@ CONTINUUM = {"far_field": "quasi-static", "far_field_interval": 10}
 
 BAD = [
     ({"far_field": "elastic"}, r"--far-field = 'elastic'.*rigid, quasi-static, explicit"),
-    ({"far_field": "explicit"}, r"--far-field = 'explicit': is not available yet"),
+    (
+        {"far_field": "explicit", "far_field_degree": 2},
+        r"--far-field-degree = 2: must be 1 with --far-field explicit",
+    ),
     ({"far_field_young": 1e6}, r"--far-field-young = 1000000.0: needs a continuum"),
     ({"far_field_interval": 5}, r"--far-field-interval = 5: needs a continuum"),
     ({**CONTINUUM, "far_field_young": 0}, r"--far-field-young = 0.*\[1000, 1e\+13\] Pa"),
@@ -159,6 +162,21 @@ def test_a_drop_in_a_continuum_states_it_and_balances(small_drop, wall_cache) ->
     compile((vtk / "scene.py").read_text(), "scene.py", "exec")
     shown = meshio.read(vtk / f"{max(moments)}-far-field.vtu")
     moved = np.linalg.norm(shown.point_data["displacement"], axis=1).max()
+    assert 0 < moved <= wall["largest_displacement_m"] * 1.1
+
+
+def test_a_drop_in_a_continuum_with_inertia_states_it_and_balances(small_drop, wall_cache) -> None:
+    summary, folder = small_drop(
+        "explicit", duration=6e-3, dt_safety=0.1, vtk_interval=3e-3, far_field="explicit"
+    )
+    wall = summary["far_field"]
+    assert wall["model"] == "explicit" and wall["outer"] == "absorbing"
+    assert wall["contacts"] > 50 and wall["largest_displacement_m"] > 0
+    # Forces and motion are exchanged once in 10 steps.
+    assert summary["energy_residual_relative"] < 1e-2
+    moments = sorted((folder / "vtk").glob("*-far-field.vtu"))
+    assert len(moments) > 1
+    moved = np.linalg.norm(meshio.read(moments[-1]).point_data["displacement_m"], axis=1).max()
     assert 0 < moved <= wall["largest_displacement_m"] * 1.1
 
 

@@ -96,7 +96,7 @@ TEST(FreeTumbling, keeps_its_angular_momentum_and_its_energy_to_the_scheme_s_fir
 }
 
 TEST(ShearOfRollingSpheres, is_none_once_their_overlap_is_none) {
-    const laws::Touch touch = laws::touch_of_spheres(Vector(0, 0, 3), 3, 1, 2);
+    const laws::Touch touch = laws::touch_of_spheres(Vector(0, 0, 3), 3.0, 1.0, 2.0);
     const Vector spin1(0.2, 0, 0), spin2(-0.1, 0, 0); // R1 w1 = -R2 w2: gears
     EXPECT_NEAR(laws::shear_velocity(touch, Vector::Zero(), spin1, spin2).norm(), 0, 1e-15);
     EXPECT_NEAR(laws::shear_velocity(touch, Vector::Zero(), spin1, -spin2).norm(), 0.4, 1e-15);
@@ -106,8 +106,8 @@ TEST(ShearOfSpheres, leaves_nothing_behind_after_a_closed_path) {
     // Press, turn, part, turn back (McNamara et al. 2008): with distances to the contact point in place of
     // the radii the two turns would not cancel.
     const Vector no_spin = Vector::Zero(), spin(0, 0.3, 0);
-    const laws::Touch light = laws::touch_of_spheres(Vector(0, 0, 2), 2, 1, 1);
-    const laws::Touch deep = laws::touch_of_spheres(Vector(0, 0, 1.8), 1.8, 1, 1);
+    const laws::Touch light = laws::touch_of_spheres(Vector(0, 0, 2), 2.0, 1.0, 1.0);
+    const laws::Touch deep = laws::touch_of_spheres(Vector(0, 0, 1.8), 1.8, 1.0, 1.0);
     const Vector turn_deep = laws::shear_velocity(deep, Vector::Zero(), spin, no_spin);
     const Vector turn_back = laws::shear_velocity(light, Vector::Zero(), -spin, no_spin);
     EXPECT_NEAR((turn_deep + turn_back).norm(), 0, 1e-15);

@@ -4,7 +4,7 @@
 #include <engines/energy/yade/engine_order.hpp>
 #include <engines/energy/yade/newton_motion.hpp>
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
-#include <femlink/yade/FemWall.hpp>
+#include <femlink/yade/scene_walls.hpp>
 #include <laws/validation.hpp>
 #include <laws/yade/GrainPhys.hpp>
 #include <laws/yade/stored_energy.hpp>
@@ -259,10 +259,10 @@ void EnergyLedger::balance() {
     values[Term::kinetic_rotation] = motion[1];
     values[Term::potential] = motion[2];
     values[Term::imposed_motion] = works[0] + broughtKinetic;
-    for (const FemWall* wall : fem_walls(*scene)) {
-        values[Term::far_field] += wall->stored_energy();
-        values[Term::imposed_motion] += wall->supplied_energy();
-    }
+    const WallEnergies walls = wall_energies(*scene);
+    values[Term::far_field] = walls.stored;
+    values[Term::far_field_dissipation] = walls.dissipated;
+    values[Term::imposed_motion] += walls.supplied;
     values[Term::permanent_load] = works[2];
     values[Term::numerical_damping] = 0 - works[4];
     values[Term::elastic_normal] = normal;

@@ -43,7 +43,7 @@ public:
         vector<vector<size_t>> opened; // by segment
         vector<size_t> touching;       // of `near`
 
-        FlatContacts& segment(int contact_class);
+        FlatContacts& segment(int contact_class, bool on_planes);
     };
 
     /// Margins of the search: each sphere gets `skin` [m] and what it travels in `horizon` [s].
@@ -124,6 +124,7 @@ private:
     };
     struct Imported {
         int contact_class;
+        bool on_plane;
         grainfall::flat::ContactState state;
         grainfall::flat::ContactConstants constants;
         ContactOwner owner;

@@ -2,7 +2,7 @@
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
 
 #include <engines/flat/yade/GrainIntegrator.hpp>
-#include <femlink/yade/FemWall.hpp>
+#include <femlink/yade/scene_walls.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 #include <laws/yade/tangential_choice.hpp>
 
@@ -55,8 +55,7 @@ void GrainInteractionLoop::action() {
     if (!flat_step_) {
         // What stands in the way is not looked for anew in every step.
         changed_ = last_step(*scene) ? Changed::anything : Changed::nothing;
-        for (FemWall* wall : fem_walls(*scene))
-            wall->prepare_in_scene();
+        prepare_walls(*scene);
         InteractionLoop::action();
         return;
     }

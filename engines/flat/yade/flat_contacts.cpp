@@ -2,7 +2,8 @@
 // Contact forces of one step; contacts made and lost.
 #include <engines/flat/yade/FlatGrains.hpp>
 
-#include <femlink/yade/FemWall.hpp>
+#include <femlink/yade/FemFace.hpp>
+#include <femlink/yade/scene_walls.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/InteractionContainer.hpp>
@@ -115,7 +116,7 @@ void FlatGrains::bear(Scene& scene, Domain& domain, const FlatTable& table, bool
         domain.near[i] = domain.near.back();
         domain.near.pop_back();
         ++census.born;
-        FlatContacts& contacts = domain.segment(made.contact_class);
+        FlatContacts& contacts = domain.segment(made.contact_class, made.on_plane);
         contacts.add(made.state, made.constants, made.owner, booking_ ? &made.dashpot : nullptr);
         const auto segment = static_cast<size_t>(&contacts - domain.segments.data());
         domain.opened.resize(domain.segments.size());
@@ -159,14 +160,13 @@ bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& mad
 
 /// Deformable walls are solved for where their grains now are.
 void FlatGrains::prepare_walls(Scene& scene) {
-    for (FemWall* wall : fem_walls(scene)) {
-        vector<FacePair> pairs;
-        for (const GeneralPair& pair : general_.all())
-            if (dynamic_cast<const FemFace*>(pair.first->shape.get()) && is_flat(pair.second->id) &&
-                wall->has_face(*pair.first))
-                pairs.push_back({pair.contact, pair.first, pair.second});
-        wall->prepare(pairs, functors);
-    }
+    if (!has_walls(scene))
+        return;
+    vector<FacePair> pairs;
+    for (const GeneralPair& pair : general_.all())
+        if (dynamic_cast<const FemFace*>(pair.first->shape.get()) && is_flat(pair.second->id))
+            pairs.push_back({pair.contact, pair.first, pair.second});
+    yade::prepare_walls(scene, pairs, functors);
 }
 
 void FlatGrains::settle_books() {

@@ -42,40 +42,40 @@ namespace {
 
 namespace gb = grainfall::laws::bridge;
 
-/// The dry contact while the bodies touch, and in the step in which they part, for its books.
-void solid_contact(FlatLoop& loop, FlatContacts& contacts, size_t i, FlatKernel dry, bool touching) {
-    gf::ContactState& state = contacts.states[i];
-    GrainPhys& phys = *contacts.owners[i].phys;
-    const bool was_touching = phys.bridge->separation <= 0 || state.shear_stiffness > 0;
-    if (!touching && !was_touching)
-        return;
-    const size_t opened = loop.opened.size();
-    dry(loop, contacts, i, i + 1);
-    if (loop.opened.size() == opened)
-        return;
-    loop.opened.pop_back();
+/// The bodies have parted; the bridge may still hold them.
+void open(gf::ContactState& state, GrainEffectPhys& phys) {
     phys.part();
     state.shear_force = Vector3r::Zero();
     state.shear_stiffness = 0;
-    if (!contacts.dashpots.empty())
-        contacts.dashpots[i] = gf::DashpotMemory();
 }
 
 template <class Form, class Film, class Energy>
 void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begin, size_t end) {
+    // The solid contacts of all, and which have none.
+    vector<size_t> apart;
+    FlatLoop solid{loop.bodies, loop.loads, loop.time_step, loop.publish, loop.book, apart};
+    dry(solid, contacts, begin, end);
+    auto next_apart = apart.begin();
     for (size_t i = begin; i < end; ++i) {
         gf::ContactState& state = contacts.states[i];
-        const FlatTouch at = touch_of(loop.bodies, state);
-        solid_contact(loop, contacts, i, dry, at.touch.overlap >= 0);
-        const gf::Motion& motion1 = loop.bodies.motions[static_cast<size_t>(state.first)];
-        const gf::Motion& motion2 = loop.bodies.motions[static_cast<size_t>(state.second)];
-        const Real normal_velocity = (motion2.velocity - motion1.velocity).dot(at.touch.normal);
-
-        LiquidBridge& bridge = *contacts.owners[i].phys->bridge;
+        auto& phys = static_cast<GrainEffectPhys&>(*contacts.owners[i].phys);
+        LiquidBridge& bridge = *phys.bridge;
+        const bool touching = next_apart == apart.end() || *next_apart != i;
+        if (!touching) {
+            ++next_apart;
+            if (bridge.separation <= 0 || state.shear_stiffness > 0) {
+                open(state, phys);
+                if (!contacts.dashpots.empty())
+                    contacts.dashpots[i] = gf::DashpotMemory();
+            }
+        }
+        const gf::ContactBlock<Real> pair(loop.bodies, contacts.states.data(), i, i + 1);
+        const FlatTouch at = contacts.on_planes ? pair.touch_of_planes() : pair.touch_of_spheres();
         gb::BridgeMemory memory = bridge.memory();
         Energy book;
         const gb::BridgeState held = gb::LiquidBridge<Form, Film, Energy>::step(
-            -at.touch.overlap, normal_velocity, loop.time_step, bridge.parameters(), memory, book);
+            -at.touch.overlap, pair.velocity().dot(at.touch.normal), loop.time_step, bridge.parameters(),
+            memory, book);
         bridge.remember(memory);
         if constexpr (Energy::active) {
             loop.book.viscous += book.viscous;
@@ -83,13 +83,14 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
         }
         state.normal = at.touch.normal;
         if (held == gb::BridgeState::holding)
-            apply(loop, state, at, bridge.normal_force(), Vector3r::Zero());
+            apply(loop, contacts.on_planes, state, at, bridge.normal_force() * at.touch.normal,
+                  Vector3r::Zero());
         else if (held == gb::BridgeState::ended)
             loop.opened.push_back(i);
-        if (loop.publish && at.touch.overlap < 0) {
+        if (loop.publish && !touching) {
             gl::ContactGeometry geometry;
-            gl::put_motion(geometry, at.touch, motion2.velocity - motion1.velocity, motion1.spin,
-                           motion2.spin, loop.time_step);
+            gl::put_motion<Real>(geometry, at.touch, pair.velocity(), pair.of_first(&gf::Motion::spin),
+                                 pair.of_second(&gf::Motion::spin), loop.time_step);
             publish_geometry(loop, state, contacts.owners[i], at, geometry);
         }
     }

@@ -2,12 +2,11 @@
 // The contact loop over packed arrays: geometry, the law's kernel, forces. One loop for each contact class.
 #pragma once
 
-#include <engines/flat/contacts.hpp>
+#include <engines/flat/contact_block.hpp>
 
 #include <laws/hertz_mindlin.hpp>
-#include <laws/sphere_kinematics.hpp>
 #include <laws/yade/ContactClass.hpp>
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/kernel_table.hpp>
 
 #include <core/Interaction.hpp>
@@ -66,11 +65,7 @@ namespace flat {
 namespace gf = grainfall::flat;
 namespace gl = grainfall::laws;
 
-/// The contact point lies at arm1 n from the centre of a first sphere, at -arm2 n from that of the second.
-struct FlatTouch {
-    gl::Touch touch;
-    Real arm1, arm2;
-};
+using FlatTouch = gf::TouchAt<Real>;
 
 /// From the centre of a plane, wherever that is, to the contact point.
 inline Vector3r plane_lever(const gf::Bodies& bodies, const gf::ContactState& state, const FlatTouch& at) {
@@ -78,46 +73,16 @@ inline Vector3r plane_lever(const gf::Bodies& bodies, const gf::ContactState& st
            bodies.places[static_cast<size_t>(state.first)].centre;
 }
 
-[[gnu::always_inline]] inline FlatTouch plane_touch(const gf::Bodies& bodies, int plane, int sphere) {
-    const gf::Plane& wall = bodies.plane(plane);
-    const gf::Place& at = bodies.places[static_cast<size_t>(plane)];
-    const gf::Place& ball = bodies.places[static_cast<size_t>(sphere)];
-    const Real distance = ball.centre[wall.axis] - at.centre[wall.axis];
-    FlatTouch result;
-    result.touch.normal = Vector3r::Zero();
-    result.touch.normal[wall.axis] = wall.sense ? wall.sense : distance > 0 ? 1 : -1;
-    result.touch.overlap = ball.radius - std::abs(distance);
-    result.touch.radius1 = at.radius * ball.radius;
-    result.touch.radius2 = ball.radius;
-    result.arm1 = 0;
-    result.arm2 = distance * result.touch.normal[wall.axis];
-    return result;
-}
-
-[[gnu::always_inline]] inline FlatTouch touch_of(const gf::Bodies& bodies, const gf::ContactState& state) {
-    if (bodies.is_plane(state.first))
-        return plane_touch(bodies, state.first, state.second);
-    const gf::Place& a = bodies.places[static_cast<size_t>(state.first)];
-    const gf::Place& b = bodies.places[static_cast<size_t>(state.second)];
-    const Vector3r branch = b.centre - a.centre;
-    FlatTouch result;
-    result.touch = gl::touch_of_spheres(branch, branch.norm(), a.radius, b.radius);
-    result.arm1 = a.radius - 0.5 * result.touch.overlap;
-    result.arm2 = b.radius - 0.5 * result.touch.overlap;
-    return result;
-}
-
-[[gnu::always_inline]] inline void apply(const FlatLoop& loop, const gf::ContactState& state,
-                                         const FlatTouch& at, Real normal_force, const Vector3r& shear) {
+/// `turn`: normal x shear force. The normal force has no arm about the centre of a sphere.
+[[gnu::always_inline]] inline void apply(const FlatLoop& loop, bool on_plane, const gf::ContactState& state,
+                                         const FlatTouch& at, const Vector3r& force_on_2,
+                                         const Vector3r& turn) {
     gf::Load& load1 = loop.loads[state.first];
     gf::Load& load2 = loop.loads[state.second];
-    const Vector3r force_on_2 = normal_force * at.touch.normal + shear;
-    // The normal force has no arm about the centre of a sphere.
-    const Vector3r turn = at.touch.normal.cross(shear);
     load1.force -= force_on_2;
     load2.force += force_on_2;
     load2.torque -= at.arm2 * turn;
-    if (loop.bodies.is_plane(state.first))
+    if (on_plane)
         load1.torque -= plane_lever(loop.bodies, state, at).cross(force_on_2);
     else
         load1.torque -= at.arm1 * turn;
@@ -129,113 +94,163 @@ void publish_geometry(const FlatLoop& loop, const gf::ContactState& state, const
 void publish_force(const gf::ContactState& state, const ContactOwner& owner, const gl::ContactForce& force,
                    bool has_shear);
 
-template <class Friction>
-[[gnu::always_inline]] inline decltype(auto) friction_of(const gf::ContactConstants& constants) {
-    if constexpr (std::is_same_v<Friction, gl::friction::Constant>)
-        return gl::friction::Constant{constants.coefficient};
-    else if constexpr (std::is_same_v<Friction, gl::friction::Any>)
-        return (*constants.curve);
-    else
-        return (*std::get_if<Friction>(&constants.curve->curve()));
-}
-
 /// The slip history stays with YADE's object.
-inline void recall_history(const ContactOwner&, gl::ContactMemory&) {}
+template <class Scalar>
+inline void recall_history(const ContactOwner&, gl::ContactMemoryOf<Scalar>&) {}
 inline void recall_history(const ContactOwner& owner, gl::PartialSlipMemory& memory) {
-    if (owner.phys->partialSlip)
-        owner.phys->partialSlip->recall(memory.history);
+    if (const PartialSlip* slip = slip_of(*owner.phys))
+        slip->recall(memory.history);
 }
-inline void keep_history(const ContactOwner&, const gl::ContactMemory&) {}
-inline void keep_history(const ContactOwner& owner, const gl::PartialSlipMemory& memory) {
-    if (!owner.phys->partialSlip)
-        owner.phys->partialSlip = shared_ptr<PartialSlip>(new PartialSlip);
-    owner.phys->partialSlip->keep(memory.history);
+template <class Scalar>
+inline void keep_history(const ContactOwner&, const gl::ContactMemoryOf<Scalar>&) {}
+inline void keep_history(ContactOwner& owner, const gl::PartialSlipMemory& memory) {
+    GrainEffectPhys& phys = GrainEffectPhys::of(*owner.contact);
+    owner.phys = &phys;
+    phys.keep_slip(memory.history);
 }
 
-template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
-    using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Friction, Energy>;
-    const gf::Bodies& bodies = loop.bodies;
-    for (size_t i = begin; i < end; ++i) {
-        gf::ContactState& state = contacts.states[i];
-        const gf::ContactConstants& constants = contacts.constants[i];
-        const FlatTouch at = touch_of(bodies, state);
-        typename ContactLaw::Memory memory;
-        memory.shear_force = state.shear_force;
-        memory.shear_stiffness = state.shear_stiffness;
-        if (at.touch.overlap < 0) {
-            if constexpr (Energy::active && Tangential::active) {
-                recall_history(contacts.owners[i], memory);
-                loop.book.rescaling += gl::shear_elastic_energy(memory);
-            }
-            loop.opened.push_back(i);
+/// What the law has made of a block of contacts.
+template <class Scalar>
+struct Outcome {
+    gl::MaskOf<Scalar> idle; // the bodies are apart, or the lane has no contact
+    gf::TouchAt<Scalar> at;
+    gl::ContactGeometryOf<Scalar> geometry;
+    gl::ContactForceOf<Scalar> force;
+    gl::ContactMemoryOf<Scalar> memory;
+};
+
+/// Contacts whose bodies have parted drop what their tangential springs still held.
+template <class Scalar>
+[[gnu::noinline]] void drop_opened(FlatLoop& loop, const gf::ContactBlock<Scalar>& block,
+                                   const gl::MaskOf<Scalar>& idle, const Scalar& spring_energy) {
+    for (int lane = 0; lane < block.count(); ++lane)
+        if (gl::lane_of(idle, lane)) {
+            loop.opened.push_back(block[lane]);
+            loop.book.rescaling += gl::lane_of(spring_energy, lane);
+        }
+}
+
+/// Lane by lane: where not all bodies touch, or YADE's objects are to be written.
+template <class Scalar>
+[[gnu::noinline]] void finish_each(const FlatLoop& loop, FlatContacts& contacts,
+                                   const gf::ContactBlock<Scalar>& block, const Outcome<Scalar>& outcome,
+                                   bool has_shear) {
+    for (int lane = 0; lane < block.count(); ++lane) {
+        if (gl::lane_of(outcome.idle, lane))
             continue;
-        }
-        const gf::Motion& motion1 = bodies.motions[static_cast<size_t>(state.first)];
-        const gf::Motion& motion2 = bodies.motions[static_cast<size_t>(state.second)];
-        const Vector3r velocity = motion2.velocity - motion1.velocity;
-        gl::ContactGeometry geometry;
-        gl::put_motion(geometry, at.touch, velocity, motion1.spin, motion2.spin, loop.time_step);
-        if (state.shear_stiffness > 0)
-            gl::put_rotation(geometry, state.normal, motion1.spin, motion2.spin);
-        recall_history(contacts.owners[i], memory);
-
-        Energy book;
-        Vector3r shear_before;
-        if constexpr (Energy::active) {
-            book.normal_viscous_force = contacts.dashpots[i].normal;
-            book.shear_viscous_force = contacts.dashpots[i].shear;
-            shear_before =
-                gl::rotated_with_contact(memory.shear_force + contacts.dashpots[i].shear, geometry);
-        }
-        const gl::ContactForce force =
-            ContactLaw::step(geometry, constants.parameters, friction_of<Friction>(constants), memory, book);
-        if constexpr (Energy::active) {
-            contacts.dashpots[i] = {book.normal_viscous_force, book.shear_viscous_force};
-            loop.book.friction += book.friction;
-            loop.book.viscous += book.viscous;
-            loop.book.rescaling += book.rescaling;
-            if constexpr (Tangential::active) {
-                // Forces lie in the contact plane: the normal part of the velocity does not count.
-                Vector3r at_contact = velocity - at.arm2 * motion2.spin.cross(at.touch.normal);
-                if (bodies.is_plane(state.first))
-                    at_contact -= motion1.spin.cross(plane_lever(bodies, state, at));
-                else
-                    at_contact -= at.arm1 * motion1.spin.cross(at.touch.normal);
-                const Vector3r excess = geometry.shear_increment - loop.time_step * at_contact;
-                loop.book.kinematics -= 0.5 * (shear_before + force.shear).dot(excess);
-            }
-        }
+        gf::ContactState& state = contacts.states[block[lane]];
+        const FlatTouch at = gf::lane_of(outcome.at, lane);
+        const gl::ContactForce force = gf::lane_of(outcome.force, lane);
         state.normal = at.touch.normal;
-        if constexpr (Tangential::active) {
-            state.shear_force = memory.shear_force;
-            state.shear_stiffness = memory.shear_stiffness;
-            keep_history(contacts.owners[i], memory);
-        }
-        apply(loop, state, at, force.normal, force.shear);
+        state.shear_force = gf::lane_of(outcome.memory.shear_force, lane);
+        state.shear_stiffness = gl::lane_of(outcome.memory.shear_stiffness, lane);
+        apply(loop, contacts.on_planes, state, at, force.normal * at.touch.normal + force.shear,
+              at.touch.normal.cross(force.shear));
         if (loop.publish) {
-            publish_geometry(loop, state, contacts.owners[i], at, geometry);
-            publish_force(state, contacts.owners[i], force, Tangential::active);
+            const ContactOwner& owner = contacts.owners[block[lane]];
+            publish_geometry(loop, state, owner, at, gf::lane_of(outcome.geometry, lane));
+            publish_force(state, owner, force, has_shear);
         }
     }
 }
 
-/// Left to itself, the compiler keeps some sums of vectors out of line and passes them through memory. The
-/// second version, taken where the processor has these instructions, is a sixth faster.
-template <class Normal, class Tangential, class Damping, class Friction, class Energy>
-[[gnu::flatten, gnu::target_clones("arch=haswell", "default")]] void
+/// Velocity of body 2 seen from body 1 at the contact point.
+template <class Scalar>
+inline gl::VectorOf<Scalar> velocity_at_contact(const FlatContacts& contacts,
+                                                const gf::ContactBlock<Scalar>& block,
+                                                const gf::TouchAt<Scalar>& at) {
+    const gl::VectorOf<Scalar> lever =
+        contacts.on_planes ? block.plane_levers(at) : gl::VectorOf<Scalar>(at.arm1 * at.touch.normal);
+    return block.velocity() - at.arm2 * block.spin2().cross(at.touch.normal) - block.spin1().cross(lever);
+}
+
+/// Books of one step; idle lanes do not count.
+template <class Scalar>
+inline void settle(FlatBook& sum, const gl::DissipationBookOf<Scalar>& book, const Scalar& kinematics,
+                   const gl::MaskOf<Scalar>& idle) {
+    sum.friction += gl::sum_of_lanes(gl::where(idle, 0, book.friction));
+    sum.viscous += gl::sum_of_lanes(gl::where(idle, 0, book.viscous));
+    sum.rescaling += gl::sum_of_lanes(gl::where(idle, 0, book.rescaling));
+    sum.kinematics += gl::sum_of_lanes(gl::where(idle, 0, kinematics));
+}
+
+template <class Scalar, class Normal, class Tangential, class Damping, class Friction, class Energy>
+inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
+    using Vectors = gl::VectorOf<Scalar>;
+    using Book = std::conditional_t<Energy::active, gl::DissipationBookOf<Scalar>, gl::NoEnergy>;
+    using Curve = gf::BlockFriction<Friction, Scalar>;
+    using ContactLaw = gl::HertzMindlin<Normal, Tangential, Damping, Curve, Book>;
+    for (size_t i = begin; i < end; i += gl::width_of<Scalar>) {
+        const gf::ContactBlock<Scalar> block(loop.bodies, contacts.states.data(), i, end);
+        const gf::TouchAt<Scalar> at =
+            contacts.on_planes ? block.touch_of_planes() : block.touch_of_spheres();
+        typename ContactLaw::template MemoryOf<Scalar> memory;
+        block.recall(memory);
+        recall_history(contacts.owners[i], memory);
+        const auto idle = at.touch.overlap < 0 || block.empty();
+        if (gl::any(idle)) {
+            const bool keeps_energy = Energy::active && Tangential::active;
+            drop_opened<Scalar>(loop, block, idle, keeps_energy ? gl::shear_elastic_energy(memory) : 0);
+            if (!gl::any(!idle))
+                continue;
+        }
+        gl::ContactGeometryOf<Scalar> geometry;
+        const Vectors spin1 = block.spin1(), spin2 = block.spin2();
+        gl::put_motion<Scalar>(geometry, at.touch, block.velocity(), spin1, spin2, loop.time_step);
+        gl::put_rotation<Scalar>(geometry, block.normal_before(), spin1, spin2);
+
+        Book book;
+        Vectors shear_before;
+        if constexpr (Energy::active) {
+            block.recall(contacts.dashpots, book);
+            const Vectors applied = memory.shear_force + book.shear_viscous_force;
+            shear_before = gl::rotated_with_contact<Scalar>(applied, geometry);
+        }
+        const gl::ContactForceOf<Scalar> force =
+            ContactLaw::step(geometry, block.parameters(contacts.constants),
+                             gf::friction_of<Friction>(block, contacts.constants), memory, book);
+        if constexpr (Energy::active) {
+            Scalar kinematics = 0;
+            if constexpr (Tangential::active) {
+                // Forces lie in the contact plane: the normal part of the velocity does not count.
+                const Vectors moved = Scalar(loop.time_step) * velocity_at_contact(contacts, block, at);
+                kinematics = -0.5 * (shear_before + force.shear).dot(geometry.shear_increment - moved);
+            }
+            settle<Scalar>(loop.book, book, kinematics, idle);
+            block.keep(book, idle, contacts.dashpots);
+        }
+        if constexpr (Tangential::active)
+            keep_history(contacts.owners[i], memory);
+        if (gl::any(idle) || loop.publish || contacts.on_planes)
+            finish_each<Scalar>(loop, contacts, block, {idle, at, geometry, force, memory},
+                                Tangential::active);
+        else {
+            block.keep(at.touch.normal, memory, contacts.states.data());
+            block.push(at, force, loop.loads);
+        }
+    }
+}
+
+/// Flattened, because the compiler else keeps sums of vectors out of line and passes them through memory. The
+/// first version is taken by processors with AVX2 and FMA (arch=haswell would ask for that very model).
+template <class Scalar, class Normal, class Tangential, class Damping, class Friction, class Energy>
+[[gnu::flatten, gnu::target_clones("arch=x86-64-v3", "default")]] void
 run_inlined(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end) {
-    run<Normal, Tangential, Damping, Friction, Energy>(loop, contacts, begin, end);
+    run<Scalar, Normal, Tangential, Damping, Friction, Energy>(loop, contacts, begin, end);
 }
 
 struct RunMaker {
     template <class Normal, class Tangential, class Damping, class Friction, class Energy>
     static FlatKernel kernel() {
-        // The history of partial slip is too long a code to be worth it.
+        // The laws for comparison are not worth the time that the compiler takes to write them side by side;
+        // the history of partial slip differs from contact to contact in its length.
+        constexpr bool usual =
+            std::is_same_v<Tangential, gl::IncrementalTangential> && std::is_same_v<Normal, gl::Hertz>;
         if constexpr (std::is_same_v<Tangential, gl::PartialSlipTangential>)
-            return &run<Normal, Tangential, Damping, Friction, Energy>;
+            return &run<Real, Normal, Tangential, Damping, Friction, Energy>;
         else
-            return &run_inlined<Normal, Tangential, Damping, Friction, Energy>;
+            return &run_inlined<std::conditional_t<usual, gl::Lanes, Real>, Normal, Tangential, Damping,
+                                Friction, Energy>;
     }
 };
 

@@ -40,7 +40,7 @@ Real FlatGrains::move(Scene& scene, const gf::StepRules& rules, bool keep_veloci
 }
 
 /// Flattened for the same reason as the contact loop.
-[[gnu::flatten, gnu::target_clones("arch=haswell", "default")]] FlatGrains::Moved
+[[gnu::flatten, gnu::target_clones("arch=x86-64-v3", "default")]] FlatGrains::Moved
 FlatGrains::move_domain(const Domain& domain, Scene& scene, const gf::StepRules& rules, bool all_with_yade) {
     Moved result;
     for (int i = domain.begin; i < domain.end; ++i) {

@@ -27,12 +27,13 @@ void reorder(Values& values, const vector<int>& order) {
 
 } // namespace
 
-FlatContacts& FlatGrains::Domain::segment(int contact_class) {
+FlatContacts& FlatGrains::Domain::segment(int contact_class, bool on_planes) {
     for (FlatContacts& known : segments)
-        if (known.contact_class == contact_class)
+        if (known.contact_class == contact_class && known.on_planes == on_planes)
             return known;
     segments.emplace_back();
     segments.back().contact_class = contact_class;
+    segments.back().on_planes = on_planes;
     return segments.back();
 }
 
@@ -68,8 +69,9 @@ vector<FlatGrains::Imported> FlatGrains::collect_contacts() {
     for (Domain& domain : domains_) {
         for (FlatContacts& segment : domain.segments) {
             for (size_t i = 0; i < segment.size(); ++i) {
-                contacts.push_back({segment.contact_class, segment.states[i], segment.constants[i],
-                                    segment.owners[i], booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
+                contacts.push_back({segment.contact_class, segment.on_planes, segment.states[i],
+                                    segment.constants[i], segment.owners[i],
+                                    booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
             }
         }
         domain.segments.clear();
@@ -135,7 +137,7 @@ void FlatGrains::place_contacts(const vector<Imported>& contacts) {
         while (owner_of(contact.state) >= domains_[d].end)
             ++d;
         domains_[d]
-            .segment(contact.contact_class)
+            .segment(contact.contact_class, contact.on_plane)
             .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
         const int higher = std::max(contact.state.first, contact.state.second);
         if (!bodies_.is_plane(higher))

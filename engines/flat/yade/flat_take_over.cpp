@@ -4,6 +4,7 @@
 
 #include <femlink/yade/FemFace.hpp>
 #include <laws/yade/GrainMat.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 #include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/Cell.hpp>
@@ -69,7 +70,7 @@ void FlatGrains::take_over(Scene& scene, int threads) {
     domains_[0].end = bodies_.spheres();
     for (const Imported& contact : contacts)
         domains_[0]
-            .segment(contact.contact_class)
+            .segment(contact.contact_class, contact.on_plane)
             .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
     moved_ = true;
     forces_published_ = planes_known_ = false;
@@ -168,6 +169,7 @@ FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
     result.owner = {&contact, &geom, &phys};
     result.state.first = index_of_[static_cast<size_t>(contact.getId1())];
     result.state.second = index_of_[static_cast<size_t>(contact.getId2())];
+    result.on_plane = bodies_.is_plane(result.state.first);
     result.state.normal = geom.normal;
     result.state.shear_force = phys.shearElastic;
     result.state.shear_stiffness = phys.ks;
@@ -176,7 +178,7 @@ FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
     if (ContactClass(phys.contactClass).friction() == FrictionForm::constant)
         result.constants.coefficient = phys.tangensOfFrictionAngle;
     else
-        result.constants.curve = &phys.curve();
+        result.constants.curve = &phys.effects()->curve();
     result.dashpot = recall_dashpots(result.owner);
     return result;
 }

@@ -4,7 +4,7 @@
 #include <engines/energy/yade/EnergyLedger.hpp>
 #include <engines/projectile/yade/ProjectileLoad.hpp>
 #include <engines/time_step/yade/HertzTimeStepper.hpp>
-#include <femlink/yade/FemWall.hpp>
+#include <femlink/yade/scene_walls.hpp>
 
 #include <core/Omega.hpp>
 #include <pkg/common/PeriodicEngines.hpp>
@@ -34,7 +34,7 @@ bool is_due(const PeriodicEngine& engine, const Moment& moment) {
 }
 
 bool is_idle(const Engine& engine, const vector<string>& blind) {
-    if (engine.dead || dynamic_cast<const ProjectileLoad*>(&engine) || dynamic_cast<const FemWall*>(&engine))
+    if (engine.dead || dynamic_cast<const ProjectileLoad*>(&engine) || is_wall(engine))
         return true;
     const string name = engine.getClassName();
     return name == "ForceResetter" || name == "InsertionSortCollider" ||

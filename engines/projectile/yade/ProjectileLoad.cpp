@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <engines/projectile/yade/ProjectileLoad.hpp>
 
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 
 #include <core/Interaction.hpp>
 #include <core/Scene.hpp>
@@ -67,8 +67,8 @@ void ProjectileLoad::action() {
 
         Vector3r onSecond = phys->normalForce + phys->shearForce;
         const GrainPhys* grain = dynamic_cast<const GrainPhys*>(phys);
-        if (grain && grain->bridge)
-            onSecond += grain->bridge->normal_force() * geom->normal;
+        if (const LiquidBridge* bridge = grain ? bridge_of(*grain) : nullptr)
+            onSecond += bridge->normal_force() * geom->normal;
         const Vector3r force = isFirst ? Vector3r(-onSecond) : onSecond;
         ZoneLoad& load = loads[static_cast<std::size_t>(place.zone)];
         load.force += force;

@@ -5,6 +5,7 @@
 #include <engines/time_step/yade/scene_limits.hpp>
 #include <engines/time_step/yade/velocity_correction.hpp>
 
+#include <femlink/yade/scene_walls.hpp>
 #include <laws/validation.hpp>
 
 namespace yade {
@@ -46,6 +47,9 @@ StepLimit HertzTimeStepper::critical(const Scene& in) {
     for (StepLimit* limit : {&flight.rayleigh, &flight.impact, &flight.displacement})
         if (limit->step < least.step)
             std::swap(least, *limit);
+    const ExchangeLimit exchange = exchange_limit(in);
+    if (exchange.step < least.step)
+        return {exchange.step, exchange.contact, "a contact on the nodes of a wall with inertia"};
     return least;
 }
 

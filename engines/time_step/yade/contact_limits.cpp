@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <engines/time_step/yade/scene_limits.hpp>
 
-#include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/GrainEffectPhys.hpp>
 
 #include <core/Interaction.hpp>
 #include <pkg/dem/ScGeom.hpp>
@@ -42,7 +42,7 @@ struct ContactStiffness {
 // attraction that falls with distance is a spring of negative stiffness and makes no step unstable; counted
 // with its size, the fall of the force is resolved.
 Real bridge_stiffness(const GrainPhys& phys) {
-    const LiquidBridge* bridge = phys.bridge.get();
+    const LiquidBridge* bridge = bridge_of(phys);
     return bridge && bridge->formed ? 2.1 * bridge->contactForce * bridge->inverseLength : 0;
 }
 

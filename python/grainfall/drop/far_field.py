@@ -34,11 +34,33 @@ SCREEN_HEIGHT, SCREEN_THICKNESS = 3.0, 0.1
 
 
 @dataclass(frozen=True)
+class Inertial:
+    """An explicit continuum before it is in a scene."""
+
+    mesh: Any
+    solids: dict[int, Any]
+    outer: str
+
+    def body(self) -> Any:
+        """ExplicitContinuum at rest."""
+        from grainfall import femlink
+
+        return femlink.ExplicitContinuum(self.mesh, self.solids, outer=self.outer)
+
+    @property
+    def surface(self) -> Any:
+        """What the grains touch."""
+        return self.body().surface
+
+
+@dataclass(frozen=True)
 class Continuum:
     """What the continuum of a run is, for its summary and for showing it later.
 
     Parameters
     ----------
+    model : str
+        'quasi-static' or 'explicit'.
     cavity : (float, float, float)
         Length, width and depth of the hole that the bed lies in [m]; its floor is at z = 0.
     thickness, element : float
@@ -53,8 +75,11 @@ class Continuum:
         Building it and putting it into the scene.
     from_cache : bool
         Was it read from its file?
+    outer : str
+        Outer boundary.
     """
 
+    model: str
     cavity: tuple[float, float, float]
     thickness: float
     element: float
@@ -68,6 +93,7 @@ class Continuum:
     compliance_bytes: int
     setup_seconds: float
     from_cache: bool
+    outer: str = "fixed"
 
     def mesh(self) -> Any:
         """Its cells."""
@@ -76,6 +102,13 @@ class Continuum:
     def materials(self) -> dict[int, tuple[float, float, float]]:
         """As `grainfall.femlink` takes them."""
         return {0: (self.young, self.poisson, self.density)}
+
+    def with_inertia(self) -> Inertial:
+        """Of an explicit model: what its engine is made from."""
+        from grainfall import femlink
+
+        solids = {0: femlink.Solid(self.young, self.poisson, self.density)}
+        return Inertial(self.mesh(), solids, self.outer)
 
     def save(self, path: Path) -> None:
         """Write to a JSON file."""
@@ -95,37 +128,54 @@ def add_bed_in_continuum(
 
     Returns
     -------
-    tuple of Continuum and grainfall.femlink.WallModel
+    tuple of Continuum and grainfall.femlink.WallModel or Inertial
         For `add_faces`, once the projectile has the body number that it has in a rigid box.
     """
     from grainfall import femlink
     from grainfall.femlink.cache import wall_path
 
     started = time.monotonic()
+    explicit = p["far_field"] == "explicit"
     cavity = (p["box_length"], p["box_width"], cavity_depth(bed))
     thickness, element, degree = (
         p[f"far_field_{name}"] for name in ("thickness", "element", "degree")
     )
     moduli = _moduli(p, bed)
     mesh = _mesh(cavity, thickness, element)
-    materials = {0: (moduli.young, moduli.poisson, moduli.density)}
-    key = femlink._wall.wall_key(mesh, materials, degree, (0, 0, 0), (0, 0, 0))
-    cached = wall_path(key, p["far_field_cache"]).exists()
-    model = femlink.cached_wall(mesh, materials, degree, cache=p["far_field_cache"])
     add_grains(bed, sand, wall)
     O.bodies.append(_screens(cavity, thickness, wall))
+    if explicit:
+        solids = {0: femlink.Solid(*asdict(moduli).values())}
+        model: Any = Inertial(mesh, solids, p["far_field_outer"])
+        held = sum(node < 0 for node in model.surface.loose)
+        size = {
+            "unknowns": 3 * (len(mesh.vertices) - held),
+            "surface_unknowns": 3 * (len(model.surface.loose) - held),
+            "compliance_bytes": 0,
+            "from_cache": False,
+            "outer": p["far_field_outer"],
+        }
+    else:
+        materials = {0: (moduli.young, moduli.poisson, moduli.density)}
+        key = femlink._wall.wall_key(mesh, materials, degree, (0, 0, 0), (0, 0, 0))
+        cached = wall_path(key, p["far_field_cache"]).exists()
+        model = femlink.cached_wall(mesh, materials, degree, cache=p["far_field_cache"])
+        size = {
+            "unknowns": int(model.description.split()[0]),
+            "surface_unknowns": len(model.compliance),
+            "compliance_bytes": model.compliance.nbytes,
+            "from_cache": cached,
+        }
     continuum = Continuum(
+        p["far_field"],
         cavity,
         thickness,
         element,
         degree,
         *asdict(moduli).values(),
         cells=len(mesh.cells),
-        unknowns=int(model.description.split()[0]),
-        surface_unknowns=len(model.compliance),
-        compliance_bytes=model.compliance.nbytes,
         setup_seconds=time.monotonic() - started,
-        from_cache=cached,
+        **size,
     )
     return continuum, model
 
@@ -188,15 +238,17 @@ def add_faces(p: Mapping[str, Any], model: Any) -> Any:
     """The continuum's faces in the scene, and the engine that moves them, labelled ``far_field``."""
     from grainfall import femlink
 
-    return femlink.add_wall(
-        model,
-        "wall",
-        cache=p["far_field_cache"],
-        interval=p["far_field_interval"],
-        drift=DRIFT,
-        tolerance=TOLERANCE,
-        label="far_field",
-    )
+    attributes = {
+        "interval": p["far_field_interval"],
+        "drift": DRIFT,
+        "tolerance": TOLERANCE,
+        "label": "far_field",
+    }
+    if isinstance(model, Inertial):
+        return femlink.add_explicit_wall(
+            model.mesh, model.solids, "wall", outer=model.outer, **attributes
+        )
+    return femlink.add_wall(model, "wall", cache=p["far_field_cache"], **attributes)
 
 
 def restore_contacts_on_faces(bed: Bed, wall: Any, model: Any) -> None:

@@ -30,7 +30,9 @@ def write_far_field_files(folder: Path, continuum: Continuum) -> None:
     moments = sorted(
         path for path in (folder / "snapshots").glob("*.npz") if not _file(folder, path).exists()
     )
-    if moments:
+    if moments and continuum.model == "explicit":
+        _write_with_inertia(folder, continuum, moments)
+    elif moments:
         from grainfall import femlink
 
         field = femlink.Continuum(continuum.mesh(), continuum.materials(), continuum.degree)
@@ -41,6 +43,16 @@ def write_far_field_files(folder: Path, continuum: Continuum) -> None:
             )
     _write_collection(folder / "vtk")
     write_state(folder / "vtk", 2 * (max(continuum.cavity) + 2 * continuum.thickness))
+
+
+def _write_with_inertia(folder: Path, continuum: Continuum, moments: list[Path]) -> None:
+    from grainfall import femlink
+
+    inertial = continuum.with_inertia()
+    body = inertial.body()
+    for path in moments:
+        body.state = np.load(path)["far_field_state"]
+        femlink.write_vtu(_file(folder, path), inertial.mesh, body)
 
 
 def _file(folder: Path, snapshot: Path) -> Path:

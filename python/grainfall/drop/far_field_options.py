@@ -7,16 +7,15 @@ from typing import Any
 
 from grainfall.options import Option, OptionError
 
-#: Models that `--far-field` may name, and those of them that can be run.
+#: Models that `--far-field` may name.
 MODELS = ("rigid", "quasi-static", "explicit")
-AVAILABLE = ("rigid", "quasi-static")
 
 FAR_FIELD = (
     Option(
         "far_field",
         "rigid",
         "what lies beyond the box: rigid walls, or an elastic continuum without inertia (quasi-static) or with it "
-        "(explicit, not built yet)",
+        "(explicit)",
         kind=str,
         choices=MODELS,
     ),
@@ -75,9 +74,17 @@ FAR_FIELD = (
     Option(
         "far_field_interval",
         10,
-        "steps between two solutions for all contacts on the continuum together; in between each is solved alone",
+        "steps between two solutions for all contacts on the continuum together, each solved alone in between; with "
+        "explicit, between two motions of the continuum",
         kind=int,
         low=1,
+    ),
+    Option(
+        "far_field_outer",
+        "absorbing",
+        "outer boundary of an explicit continuum: absorbing waves, or fixed",
+        kind=str,
+        choices=("absorbing", "fixed"),
     ),
     Option(
         "far_field_cache",
@@ -90,19 +97,20 @@ FAR_FIELD = (
 _OF_THE_CONTINUUM = tuple(o for o in FAR_FIELD if o.name.startswith("far_field_"))
 
 
-def far_field_is_available(values: dict[str, Any], given: Mapping[str, Any]) -> None:
-    """The model is built, and what belongs to a continuum is given only with one."""
+def continuum_belongs_to_its_options(values: dict[str, Any], given: Mapping[str, Any]) -> None:
+    """What belongs to a continuum is given only with one."""
     model = values["far_field"]
-    if model not in AVAILABLE:
+    if model == "explicit" and values["far_field_degree"] != 1:
         raise OptionError(
-            f"--far-field = {model!r}: is not available yet: must be one of {', '.join(AVAILABLE)}"
+            f"--far-field-degree = {values['far_field_degree']}: must be 1 with --far-field explicit"
         )
     if model != "rigid":
         return
     for option in _OF_THE_CONTINUUM:
         if values[option.name] != option.default and not option.runtime:
             raise OptionError(
-                f"{option.flag} = {values[option.name]}: needs a continuum: --far-field must be quasi-static with it"
+                f"{option.flag} = {values[option.name]}: needs a continuum: --far-field must be "
+                "quasi-static or explicit with it"
             )
 
 
@@ -137,4 +145,4 @@ def continuum_is_meshed(values: dict[str, Any], given: Mapping[str, Any]) -> Non
         )
 
 
-CHECKS = (far_field_is_available, near_field_is_one_box, continuum_is_meshed)
+CHECKS = (continuum_belongs_to_its_options, near_field_is_one_box, continuum_is_meshed)

@@ -62,7 +62,9 @@ class FarFieldRecord:
     def sample(self) -> None:
         """Add a row."""
         wall = builtins.far_field
-        moved = np.array(wall.nodeDisplacements()) - np.array(wall.datum)
+        moved = np.array(wall.nodeDisplacements())
+        if wall.datum:
+            moved = moved - np.array(wall.datum)
         largest = float(np.linalg.norm(moved, axis=1).max())
         self.rows.append(
             (O.time, wall.contacts, *wall.force, wall.storedEnergy, largest, wall.disagreement)
@@ -75,9 +77,13 @@ class FarFieldRecord:
             writer.writerow(COLUMNS)
             writer.writerows([repr(float(value)) for value in row] for row in self.rows)
 
-    def added_forces(self) -> np.ndarray:
-        """Forces on the nodes beyond those at the start, shape (n, 3) [N]."""
-        return np.array(builtins.far_field.nodeForces()) - self._start
+    def snapshot(self) -> dict[str, np.ndarray]:
+        """What shows the continuum at this moment: forces on its nodes beyond those at the start, shape (n, 3) [N], or
+        the state of one with inertia."""
+        wall = builtins.far_field
+        if wall.continuum:
+            return {"far_field_state": np.array(wall.continuum.state())}
+        return {"far_field_forces": np.array(wall.nodeForces()) - self._start}
 
     def is_reached(self, p: dict[str, Any], projectile: int, ahead: float) -> bool:
         """May the projectile touch the continuum within `ahead` [s]? It has no contact with it."""

@@ -184,7 +184,7 @@ class DropRun:
         progress.close()
 
     def _snapshot(self) -> None:
-        self.snapshots.write(self._touch(), self.far_field and self.far_field.added_forces())
+        self.snapshots.write(self._touch(), self.far_field.snapshot() if self.far_field else {})
 
     def _advance(self, steps: int) -> None:
         """Run so many steps and see that the projectile is still there."""

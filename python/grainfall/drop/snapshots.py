@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import meshio
@@ -44,10 +45,12 @@ class Snapshots:
         (folder / "snapshots").mkdir(parents=True, exist_ok=True)
         (folder / "vtk").mkdir(parents=True, exist_ok=True)
 
-    def write(self, touch: float | None = None, far_field_forces: np.ndarray | None = None) -> None:
+    def write(
+        self, touch: float | None = None, far_field: Mapping[str, np.ndarray] | None = None
+    ) -> None:
         """Write the present state; its time counts from `touch`, and is negative before the first touch.
 
-        `far_field_forces`, shape (n, 3) [N]: on the continuum's surface, for `grainfall.drop.far_field_files`.
+        `far_field`: arrays that show the continuum, for `grainfall.drop.far_field_files`.
         """
         name = f"{round(O.time * 1e6):09d}us"
         points, forces = self._contacts()
@@ -65,7 +68,7 @@ class Snapshots:
             projectile_orientation=np.array([orientation[i] for i in (3, 0, 1, 2)], dtype=float),
             outline=self.outline,
             box=np.array(self.box),
-            **({} if far_field_forces is None else {"far_field_forces": far_field_forces}),
+            **(far_field or {}),
         )
         prefix = str(self.folder / "vtk" / name) + "-"
         recorder = yade.wrapper.VTKRecorder(fileName=prefix, recorders=["spheres", "velocity"])

@@ -17,8 +17,10 @@ from typing import Any
 
 from grainfall.femlink._wall import (
     ClosestPoint,
+    ExplicitContinuum,
     Feature,
     HexMesh,
+    Solid,
     Surface,
     Wall,
     WallModel,
@@ -31,17 +33,21 @@ from grainfall.femlink._wall import (
     load_wall,
 )
 from grainfall.femlink.cache import cached_wall
-from grainfall.femlink.scene import add_wall, functors
+from grainfall.femlink.output import write_vtu
+from grainfall.femlink.scene import add_explicit_wall, add_wall, functors
 
 __all__ = [
     "ClosestPoint",
     "Continuum",
+    "ExplicitContinuum",
     "Feature",
     "Field",
     "HexMesh",
+    "Solid",
     "Surface",
     "Wall",
     "WallModel",
+    "add_explicit_wall",
     "add_wall",
     "box",
     "cached_wall",
@@ -53,6 +59,7 @@ __all__ = [
     "half_space_block",
     "load_wall",
     "read_gmsh",
+    "write_vtu",
 ]
 
 _NEEDS_DEALII = ("Continuum", "Field", "read_gmsh")

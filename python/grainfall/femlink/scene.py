@@ -2,8 +2,11 @@
 """A deformable wall in a YADE scene."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from grainfall.femlink import _wall
 from grainfall.femlink.cache import wall_path
@@ -13,6 +16,7 @@ def add_wall(
     wall: _wall.WallModel | Path | str,
     material: Any,
     cache: Path | str = "",
+    origin: Sequence[float] = (0.0, 0.0, 0.0),
     color: tuple[float, float, float] = (0.6, 0.5, 0.4),
     **attributes: Any,
 ) -> Any:
@@ -27,6 +31,8 @@ def add_wall(
         compliance is to supply the indentation, the wall's own moduli where faces are much larger than contacts.
     cache : path
         Folder of kept walls; default: ~/.cache/grainfall/walls.
+    origin : (3,) float, m
+        Where the mesh's origin lies in the scene.
     color
         Of the faces.
     attributes
@@ -47,19 +53,61 @@ def add_wall(
     import yade.wrapper as w
 
     model, file = _model_and_file(wall, cache)
-    scene = w.Omega()
-    material = _in_scene(material)
-    faces = []
-    nodes = model.surface.nodes + model.preload
-    for index, corners in enumerate(model.surface.faces):
-        shape = w.FemFace(nodes=[tuple(nodes[n]) for n in corners], color=color, wire=True)
-        body = w.Body(material=material)
-        body.shape = shape
-        body.state.pos = tuple(nodes[corners].mean(axis=0))
-        body.dynamic = False
-        body.aspherical = False
-        faces.append(scene.bodies.append(body))
-    return w.FemWall(file=str(file), faces=faces, **attributes)
+    faces = _add_faces(model.surface, model.preload, material, origin, color)
+    return w.FemWall(file=str(file), faces=faces, shift=tuple(origin), **attributes)
+
+
+def add_explicit_wall(
+    mesh: _wall.HexMesh,
+    solids: Mapping[int, _wall.Solid],
+    material: Any,
+    element: str = "gauss",
+    outer: str = "fixed",
+    safety: float = 0.9,
+    hourglass: float = 1.0,
+    origin: Sequence[float] = (0.0, 0.0, 0.0),
+    color: tuple[float, float, float] = (0.6, 0.5, 0.4),
+    **attributes: Any,
+) -> Any:
+    """Put the faces of a continuum with inertia into the scene and make the engine that moves it.
+
+    Parameters
+    ----------
+    mesh, solids, element, outer, safety, hourglass
+        As of :class:`grainfall.femlink.ExplicitContinuum`.
+    material, origin, color, attributes
+        As of :func:`add_wall`. ``interval``: the continuum is moved on in every n-th step.
+
+    Returns
+    -------
+    FemWall
+        Its `continuum` tells step and energies.
+
+    Raises
+    ------
+    ValueError
+        If mesh, solids or options are wrong.
+    """
+    import yade.wrapper as w
+
+    surface = _wall.ExplicitContinuum(mesh, dict(solids), element, outer, safety, hourglass).surface
+    field = w.ExplicitFarField(
+        vertices=[tuple(v) for v in mesh.vertices],
+        cells=[int(n) for cell in mesh.cells for n in cell],
+        regions=[int(n) for n in mesh.regions],
+        boundary=[
+            int(n)
+            for corners, name in zip(mesh.boundary_corners, mesh.boundary_ids)
+            for n in (*corners, name)
+        ],
+        solids=[[float(region), *solid.numbers] for region, solid in solids.items()],
+        element=element,
+        outer=outer,
+        safety=safety,
+        hourglass=hourglass,
+    )
+    faces = _add_faces(surface, np.zeros_like(surface.nodes), material, origin, color)
+    return w.FemWall(continuum=field, faces=faces, shift=tuple(origin), **attributes)
 
 
 def functors() -> tuple[list[Any], list[Any], list[Any]]:
@@ -100,3 +148,26 @@ def _in_scene(material: Any) -> Any:
     if material.id < 0:
         materials.append(material)
     return material
+
+
+def _add_faces(
+    surface: _wall.Surface,
+    displacement: np.ndarray,
+    material: Any,
+    origin: Sequence[float],
+    color: tuple[float, float, float],
+) -> list[int]:
+    """Bodies of shape FemFace for all faces of a surface; their ids."""
+    import yade.wrapper as w
+
+    material = _in_scene(material)
+    nodes = surface.nodes + displacement + np.asarray(origin, dtype=float)
+    faces = []
+    for corners in surface.faces:
+        body = w.Body(material=material)
+        body.shape = w.FemFace(nodes=[tuple(nodes[n]) for n in corners], color=color, wire=True)
+        body.state.pos = tuple(nodes[corners].mean(axis=0))
+        body.dynamic = False
+        body.aspherical = False
+        faces.append(w.Omega().bodies.append(body))
+    return faces

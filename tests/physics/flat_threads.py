@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""YADE script: scenes on the flat path, what bodies and contacts are like at their ends.
+
+usage: yade -n -x [-j2] flat_threads.py <start.yade.gz> <output.pickle>
+
+The first scene starts from a file; the last saves and loads itself in the middle of its impacts.
+"""
+from __future__ import annotations
+
+import builtins
+import pickle
+import sys
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
+
+import flat_scenes as scenes  # noqa: E402
+import yade.wrapper as w  # noqa: E402
+from yade import O, utils  # noqa: E402
+
+STEPS = 300
+WET = dict(gravimetricMoisture=0.01, liquidViscosity=1e-3)
+
+
+def run(steps: int) -> dict[str, Any]:
+    """The state after so many steps more, which must have run flat."""
+    O.run(steps, True)
+    loop = next(e for e in O.engines if isinstance(e, w.GrainInteractionLoop))
+    assert loop.path == "flat", loop.path
+    return scenes.state()
+
+
+def one_step() -> dict[str, Any]:
+    O.load(sys.argv[1])
+    scenes.engines(True)
+    return run(1)
+
+
+def build(law: dict[str, Any] | None = None, more: list | tuple = (), **material: Any) -> None:
+    O.reset()
+    scenes.pack(scenes.sand(**material), count=6)
+    scenes.engines(True, law=law, more=more)
+
+
+def bed(law: dict[str, Any] | None = None, **material: Any) -> dict[str, Any]:
+    """A bed falls together; with its energies."""
+    build(law, [scenes.ledger()], **material)
+    state = run(STEPS)
+    O.run(50 - O.iter % 50 + 1, True)  # to the ledger's next balance
+    return {**state, "energies": dict(O.energy.items()), "residual": O.engines[-1].relativeResidual}
+
+
+def changing_bodies() -> dict[str, Any]:
+    """Grains come and go in the middle of the run."""
+    build()
+    O.engines = [*O.engines, w.PyRunner(command="change()", iterPeriod=100, nDo=3)]
+
+    def change() -> None:
+        O.bodies[3].state.vel = (1, 0, 0)
+        if O.iter < 150:
+            O.bodies.append(utils.sphere((0.015, 0.015, 0.08), 0.004, material=O.materials[0]))
+            O.bodies.erase(10)
+
+    builtins.change = change
+    return run(STEPS + 50)
+
+
+def saved_in_the_middle() -> dict[str, Any]:
+    build({"tangentialLaw": "mindlin-deresiewicz"}, **WET)
+    run(STEPS // 2)
+    file = sys.argv[2] + ".middle.yade.gz"
+    O.save(file)
+    O.reset()
+    O.load(file)
+    return run(STEPS // 2)
+
+
+def kept_on() -> dict[str, Any]:
+    """The same, never saved."""
+    build({"tangentialLaw": "mindlin-deresiewicz"}, **WET)
+    return run(STEPS)
+
+
+states = {
+    "one step": one_step(),
+    "dry bed": bed(),
+    "moist bed": bed(**WET),
+    "changing bodies": changing_bodies(),
+    "saved": saved_in_the_middle(),
+    "kept on": kept_on(),
+}
+Path(sys.argv[2]).write_bytes(pickle.dumps({"threads": O.numThreads, **states}))
