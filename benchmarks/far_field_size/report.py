@@ -34,10 +34,10 @@ def of(rows: list[Row], half_width: float, outside: str, interval: int) -> list[
 
 
 def spread(values: list[float], scale: float, digits: int) -> str:
-    """Mean, and half of what lies between the smallest and the largest."""
-    if not values:
-        return "-"
+    """Mean, and half of what lies between the smallest and the largest packing."""
     mean, half = np.mean(values), np.ptp(values) / 2
+    if len(values) == 1:
+        return f"{scale * mean:.{digits}f}"
     return f"{scale * mean:.{digits}f} ± {scale * half:.{digits}f}"
 
 
@@ -110,6 +110,18 @@ def draw(rows: list[Row], interval: int) -> None:
                 ms=5,
                 alpha=0.8,
             )
+        for half_width in NEAR:
+            for row in of(rows, half_width, CONTINUUM, interval):
+                same = [r for r in of(rows, half_width, RIGID, 0) if r["seed"] == row["seed"]]
+                axes.plot(
+                    [half_width - 0.03, half_width + 0.03],
+                    [scale * same[0][name], scale * row[name]],
+                    "-",
+                    color="black",
+                    lw=0.7,
+                    zorder=1,
+                    label="same packing" if half_width == NEAR[0] else None,
+                )
         whole = [scale * r[name] for r in of(rows, WHOLE, RIGID, 0)]
         if whole and name != "drop_s":
             axes.axhspan(
@@ -120,7 +132,7 @@ def draw(rows: list[Row], interval: int) -> None:
                 lw=0,
                 label="grains throughout",
             )
-        axes.set(xlabel="half-width of the box of grains, projectile diameters", ylabel=label)
+        axes.set(xlabel="half-width of the grains, diameters", ylabel=label)
         axes.grid(True, lw=0.3)
     panels[0].legend(fontsize=7)
     figure.tight_layout()
