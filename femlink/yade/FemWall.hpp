@@ -128,7 +128,7 @@ private:
 
     std::unique_ptr<grainfall::femlink::QuasiStaticWall> wall_;
     vector<FemFace*> shapes_;
-    std::map<Body::id_t, int> face_of_body_;
+    vector<int> face_of_body_; // -1: not of this wall
     vector<grainfall::femlink::WallTouch> touches_;
     vector<Partner> partners_;
     grainfall::femlink::Positions positions_; // of the surface's nodes, without `shift`
@@ -140,8 +140,14 @@ private:
     const Engine* listed_loop_ = nullptr;
     const FunctorLists* checked_lists_ = nullptr;
 
+    int face_of(Body::id_t id) const {
+        return id >= 0 && static_cast<size_t>(id) < face_of_body_.size()
+                   ? face_of_body_[static_cast<size_t>(id)]
+                   : -1;
+    }
     void set_up();
     void restore();
+    void find_interactions();
     shared_ptr<Engine> interaction_loop() const;
     void check_functors(FunctorLists& lists) const;
     void compare_with_law();
