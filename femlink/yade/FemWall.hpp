@@ -73,7 +73,7 @@ public:
         ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
         ((Real, drift, 0.002, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
         ((Real, tolerance, 1e-6, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
-        ((int, maxSweeps, 300, , "Sweeps after which the solver goes on as it is [-], >= 1; if forces then still change by more than 1 % of the largest, the run stops with an error."))
+        ((int, maxSweeps, 300, , "Sweeps after which a step is left as it is, the next going on from there [-], >= 1; if forces then still change by more than a fifth of the largest, the run stops with an error."))
         ((Vector3r, velocity, Vector3r::Zero(), , "Velocity [m/s] of the outer boundary, and with it of the whole wall as a rigid body."))
         ((Vector3r, shift, Vector3r::Zero(), Attr::readonly, "How far the outer boundary has moved [m]."))
         ((int, contacts, 0, Attr::readonly, "Contacts in the last step."))
