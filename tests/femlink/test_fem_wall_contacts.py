@@ -146,9 +146,8 @@ def drag(
     grain.state.blockedDOFs = "XYZ"
     newton.damping = 0.3  # noqa: F821
     O.run(6000, True)
-    newton.damping = (
-        0 if rolls else 0.2
-    )  # noqa: F821  dragged slowly: what its bouncing would add is not the wall's
+    # Dragged slowly: what a bouncing grain would add is not the wall's.
+    newton.damping = 0 if rolls else 0.2  # noqa: F821
     grain.state.blockedDOFs = "" if rolls else "xyXYZ"
     grain.state.vel = (*velocity, 0)
     if rolls:
