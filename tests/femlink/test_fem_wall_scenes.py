@@ -110,14 +110,17 @@ def test_a_settled_bed_s_weight_stands_on_the_wall_whatever_the_mesh() -> None:
 
 
 def test_more_contacts_than_the_surface_has_unknowns() -> None:
-    # 100 grains on four faces: 27 unknowns of one node that moves... and all corners held.
+    # 100 grains on four faces, of whose nodes one moves: 3 unknowns.
     for young in (1e2, 2e7, 1e12):
         wall = pile(young, cells=2, layers=1, across=10, restitution=0.5, speed=0.05)
-        O.run(2000, True)
+        most = 0
+        for _ in range(20):
+            O.run(100, True)
+            most = max(most, wall.contacts)
         assert np.isfinite(ledger.residual)  # noqa: F821
         assert ledger.largestResidual < 2e-2 * ledger.energyInPlay, young  # noqa: F821
         unknowns = 3 * wall_unknowns(wall)
-        assert wall.contacts > unknowns
+        assert most > unknowns
 
 
 def wall_unknowns(wall: object) -> int:
