@@ -99,6 +99,11 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<Conta
         report.converged = true;
         return report;
     }
+    // What has all but settled is left as it is: applying a change costs a column of G.
+    constexpr double settled = 0.1; // of the tolerance
+    double negligible = 0;
+    for (int i = 0; i < count; ++i)
+        negligible = std::max(negligible, settled * options.tolerance * forces[3 * i]);
     for (; report.sweeps < options.max_sweeps && !report.converged;) {
         double change = 0, largest = 0;
         for (int i = 0; i < count; ++i) {
@@ -106,7 +111,9 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<Conta
             const int n = 3 * i;
             const double own = wall(n, n);
             const double overlap = contact.free_overlap - (yielded[n] - own * forces[n]);
-            const double normal = in_series(contact.relation, own, overlap);
+            const double found = in_series(contact.relation, own, overlap);
+            const bool moves = std::abs(found - forces[n]) > negligible;
+            const double normal = moves ? found : forces[n];
             const double normal_change = normal - forces[n];
             if (normal_change != 0) {
                 forces[n] = normal;
@@ -122,6 +129,8 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<Conta
                     spring.stretch - (yielded.segment<2>(n + 1) - own_shear * before);
                 shear = capped_shear(own_shear, spring.stiffness, stretch, limit);
             }
+            if (!moves && (shear - before).cwiseAbs().maxCoeff() <= negligible)
+                shear = before;
             const Eigen::Vector2d shear_change = shear - before;
             if (shear_change[0] != 0 || shear_change[1] != 0) {
                 forces.segment<2>(n + 1) = shear;
@@ -131,6 +140,7 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<Conta
                 {change, std::abs(normal_change), std::abs(shear_change[0]), std::abs(shear_change[1])});
             largest = std::max(largest, normal);
         }
+        negligible = settled * options.tolerance * largest;
         ++report.sweeps;
         report.change = largest > 0 ? change / largest : change;
         report.converged = change <= options.tolerance * largest;

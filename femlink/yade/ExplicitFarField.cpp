@@ -37,9 +37,13 @@ fl::HexMesh mesh_of(const ExplicitFarField& field) {
 }
 
 fl::SolidMaterials solids_of(const ExplicitFarField& field) {
+    constexpr size_t numbers = 10;
+    if (field.solids.size() % numbers != 0)
+        grainfall::laws::reject("ExplicitFarField.solids", static_cast<double>(field.solids.size()),
+                                "10 numbers a region");
     fl::SolidMaterials solids;
-    for (const vector<Real>& s : field.solids) {
-        grainfall::laws::require_length("ExplicitFarField.solids", s.size(), 10, "ten numbers a region");
+    for (size_t i = 0; i < field.solids.size(); i += numbers) {
+        const Real* s = &field.solids[i];
         const int region = static_cast<int>(s[0]);
         fl::SolidMaterial solid{static_cast<fl::SolidLaw>(static_cast<int>(s[1])),
                                 {s[2], s[3], s[4]},

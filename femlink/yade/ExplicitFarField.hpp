@@ -35,7 +35,7 @@ public:
         ((vector<int>, cells, , Attr::readonly, "Hexahedra: 8 vertices each, x running first."))
         ((vector<int>, regions, , Attr::readonly, "Material of each cell."))
         ((vector<int>, boundary, , Attr::readonly, "Faces: 4 vertices and id (1 outer, 2 coupling) each."))
-        ((vector<vector<Real>>, solids, , Attr::readonly, "Region, law (0 st-venant, 1 neo-hooke, 2 j2, 3 drucker-prager), Young's modulus [Pa], Poisson's ratio, density [kg/m3], yield stress [Pa], hardening [Pa], cohesion [Pa], friction angle [rad], dilatancy [rad]."))
+        ((vector<Real>, solids, , Attr::readonly, "Ten numbers a region: its number, law (0 st-venant, 1 neo-hooke, 2 j2, 3 drucker-prager), Young's modulus [Pa], Poisson's ratio, density [kg/m3], yield stress [Pa], hardening [Pa], cohesion [Pa], friction angle [rad], dilatancy [rad]."))
         ((string, element, "gauss", Attr::readonly, "'gauss' or 'one-point'."))
         ((string, outer, "fixed", Attr::readonly, "Outer boundary: 'fixed', 'absorbing' or 'dashpots'."))
         ((Real, safety, 0.9, Attr::readonly, "Longest substep over the critical one [-], > 0."))

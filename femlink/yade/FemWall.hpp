@@ -73,7 +73,7 @@ public:
         ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
         ((Real, drift, 0.002, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
         ((Real, tolerance, 1e-6, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
-        ((int, maxSweeps, 300, , "Sweeps after which the solver goes on as it is [-], >= 1; if forces then still change by more than 1 % of the largest, the run stops with an error."))
+        ((int, maxSweeps, 300, , "Sweeps after which a step is left as it is, the next going on from there [-], >= 1; if forces then still change by more than a fifth of the largest, the run stops with an error."))
         ((Vector3r, velocity, Vector3r::Zero(), , "Velocity [m/s] of the outer boundary, and with it of the whole wall as a rigid body."))
         ((Vector3r, shift, Vector3r::Zero(), Attr::readonly, "How far the outer boundary has moved [m]."))
         ((int, contacts, 0, Attr::readonly, "Contacts in the last step."))
@@ -128,7 +128,7 @@ private:
 
     std::unique_ptr<grainfall::femlink::QuasiStaticWall> wall_;
     vector<FemFace*> shapes_;
-    std::map<Body::id_t, int> face_of_body_;
+    vector<int> face_of_body_; // -1: not of this wall
     vector<grainfall::femlink::WallTouch> touches_;
     vector<Partner> partners_;
     grainfall::femlink::Positions positions_; // of the surface's nodes, without `shift`
@@ -140,8 +140,14 @@ private:
     const Engine* listed_loop_ = nullptr;
     const FunctorLists* checked_lists_ = nullptr;
 
+    int face_of(Body::id_t id) const {
+        return id >= 0 && static_cast<size_t>(id) < face_of_body_.size()
+                   ? face_of_body_[static_cast<size_t>(id)]
+                   : -1;
+    }
     void set_up();
     void restore();
+    void find_interactions();
     shared_ptr<Engine> interaction_loop() const;
     void check_functors(FunctorLists& lists) const;
     void compare_with_law();

@@ -54,7 +54,7 @@ void FemWall::take_over(const vector<int>& face_ids, const vector<int>& spheres,
     vector<FacePair> pairs;
     for (size_t i = 0; i < spheres.size(); ++i) {
         Body& sphere = sphere_of(*scene, spheres[i]);
-        if (!face_of_body_.count(face_ids[i]))
+        if (face_of(face_ids[i]) < 0)
             throw std::runtime_error("FemWall.takeOver: faces: body " + std::to_string(face_ids[i]) +
                                      " is no face of this wall");
         const shared_ptr<Interaction> contact(new Interaction(face_ids[i], sphere.id));

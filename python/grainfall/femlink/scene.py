@@ -100,7 +100,7 @@ def add_explicit_wall(
             for corners, name in zip(mesh.boundary_corners, mesh.boundary_ids)
             for n in (*corners, name)
         ],
-        solids=[[float(region), *solid.numbers] for region, solid in solids.items()],
+        solids=[n for region, solid in solids.items() for n in (float(region), *solid.numbers)],
         element=element,
         outer=outer,
         safety=safety,
