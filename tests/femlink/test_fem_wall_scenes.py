@@ -114,8 +114,8 @@ def test_more_contacts_than_the_surface_has_unknowns() -> None:
     for young in (1e2, 2e7, 1e12):
         wall = pile(young, cells=2, layers=1, across=10, restitution=0.5, speed=0.05)
         most = 0
-        for _ in range(20):
-            O.run(100, True)
+        for _ in range(50):  # on the stiff wall they touch for 60 steps
+            O.run(40, True)
             most = max(most, wall.contacts)
         assert np.isfinite(ledger.residual)  # noqa: F821
         assert ledger.largestResidual < 2e-2 * ledger.energyInPlay, young  # noqa: F821
