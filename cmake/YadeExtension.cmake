@@ -48,7 +48,7 @@ target_compile_options(grainfall_core PRIVATE -fno-math-errno)
 # contact costs a fifth more than the same law written by hand (benchmarks/effect_cost/measure.py).
 file(GLOB inner_loops CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/laws/yade/contact_kernels_*.cpp"
      "${PROJECT_SOURCE_DIR}/laws/yade/wet_contact.cpp" "${PROJECT_SOURCE_DIR}/engines/flat/yade/flat_*.cpp"
-     "${PROJECT_SOURCE_DIR}/femlink/yade/FemWall.cpp" "${PROJECT_SOURCE_DIR}/femlink/yade/ExplicitFarField.cpp")
+     "${PROJECT_SOURCE_DIR}/femlink/yade/wall_solution.cpp" "${PROJECT_SOURCE_DIR}/femlink/yade/ExplicitFarField.cpp")
 # -Wno-psabi: functions over vectors of four numbers are all inlined, so that no convention of passing them matters.
 # (YADE's own -frounding-math would take the square roots of four numbers one by one, and is no part of its interface.)
 set_source_files_properties(${inner_loops} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>;-Wno-psabi")

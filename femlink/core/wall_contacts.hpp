@@ -78,8 +78,6 @@ public:
     }
     // N, of the contacts on the wall.
     const Positions& nodal_forces() const { return nodal_forces_; }
-    // J, stored by the contacts.
-    double strain_energy() const { return 0.5 * nodal_forces_.cwiseProduct(displacement_).sum(); }
 
     void put(const Positions& displacement, const Positions& nodal_forces) {
         displacement_ = displacement;

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which spheres touch the wall, and where: contacts that come, go, and pass from face to face.
+#include <femlink/yade/FemWall.hpp>
+
+#include <laws/yade/GrainEffectPhys.hpp>
+
+#include <core/Scene.hpp>
+#include <pkg/common/Sphere.hpp>
+
+#include <algorithm>
+
+namespace yade {
+
+namespace fl = grainfall::femlink;
+
+namespace {
+constexpr size_t nowhere = static_cast<size_t>(-1);
+}
+
+size_t FemWall::known_touch(const FacePair& pair) const {
+    const auto places = places_.find(pair.sphere->id);
+    if (places == places_.end())
+        return nowhere;
+    for (const size_t i : places->second)
+        if (faces[static_cast<size_t>(touches_[i].place.face)] == pair.face->id)
+            return i;
+    return nowhere;
+}
+
+/// Contacts keep their places, so that the solver's matrix changes only where they do.
+size_t FemWall::new_touch() {
+    for (size_t i = 0; i < touches_.size(); ++i)
+        if (touches_[i].is_empty())
+            return i;
+    touches_.emplace_back();
+    partners_.emplace_back();
+    return touches_.size() - 1;
+}
+
+void FemWall::forget_touch(size_t place) {
+    touches_[place] = fl::WallTouch();
+    partners_[place] = Partner();
+}
+
+Real FemWall::radius_of(size_t place) const {
+    return static_cast<const Sphere&>(*partners_[place].sphere->shape).radius;
+}
+
+void FemWall::find_touches(vector<FacePair>& pairs) {
+    places_.clear();
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        partners_[i].found = false;
+        if (!touches_[i].is_empty())
+            places_[touches_[i].sphere].push_back(i);
+    }
+    std::sort(pairs.begin(), pairs.end(), [&](const FacePair& a, const FacePair& b) {
+        return std::make_pair(a.sphere->id, a.face->id) < std::make_pair(b.sphere->id, b.face->id);
+    });
+    for (auto begin = pairs.begin(); begin != pairs.end();) {
+        const auto end = std::find_if(begin, pairs.end(),
+                                      [&](const FacePair& pair) { return pair.sphere != begin->sphere; });
+        find_touches_of(begin, end);
+        begin = end;
+    }
+    contacts = 0;
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        if (touches_[i].is_empty())
+            continue;
+        if (partners_[i].found)
+            ++contacts;
+        else
+            forget_touch(i);
+    }
+}
+
+/// Pairs of one sphere.
+void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>::iterator end) {
+    const Body& sphere = *begin->sphere;
+    const Real radius = static_cast<const Sphere&>(*sphere.shape).radius;
+    const Vector3r centre = sphere.state->pos - shift;
+    vector<int> near, held;
+    // A wall that is pressed in comes back as the load leaves it, so all that is inside the unloaded wall
+    // takes part; a bridge holds on further out.
+    Real reach = radius + largest_displacement_;
+    for (auto pair = begin; pair != end; ++pair) {
+        const int face = face_of(pair->face->id);
+        near.push_back(face);
+        const size_t place = known_touch(*pair);
+        if (place != nowhere)
+            held.push_back(face);
+        const auto* phys = dynamic_cast<const GrainPhys*>(pair->contact->phys.get());
+        if (phys && bridge_of(*phys))
+            reach = std::max(reach, 1.5 * radius);
+    }
+    const auto pair_of = [&](int face) {
+        return std::find_if(begin, end, [&](const FacePair& pair) { return face_of(pair.face->id) == face; });
+    };
+    const vector<fl::SurfaceContact> found =
+        fl::surface_contacts(wall_->surface(), positions_, near, held, centre, reach);
+    const auto takes_part = [&](const fl::SurfaceContact& contact, bool is_real) {
+        return is_real || contact.distance < radius ||
+               (!continuum && wall_->free_overlap(contact, centre, radius) > 0);
+    };
+    vector<char> placed(found.size(), 0);
+    for (size_t k = 0; k < found.size(); ++k) { // where they were
+        const auto pair = pair_of(found[k].face);
+        const size_t place = known_touch(*pair);
+        if (place == nowhere || !takes_part(found[k], pair->contact->isReal()))
+            continue;
+        follow(place, found[k], *pair);
+        placed[k] = 1;
+    }
+    for (size_t k = 0; k < found.size(); ++k) { // from another face
+        for (const size_t i : places_[sphere.id]) {
+            Partner& old = partners_[i];
+            if (placed[k] || old.found || !old.contact ||
+                touches_[i].anchor.normal.dot(found[k].normal) < fl::smooth_cosine ||
+                !takes_part(found[k], old.contact->isReal()))
+                continue;
+            const auto pair = pair_of(found[k].face);
+            carry(*old.contact, *pair->contact);
+            follow(i, found[k], *pair);
+            placed[k] = 1;
+        }
+    }
+    for (size_t k = 0; k < found.size(); ++k) { // new
+        if (placed[k] || !takes_part(found[k], false))
+            continue;
+        const size_t place = new_touch();
+        touches_[place].sphere = sphere.id;
+        follow(place, found[k], *pair_of(found[k].face));
+        touches_[place].seen = touches_[place].seen_before = wall_->seen(touches_[place].site);
+    }
+}
+
+/// A contact's history goes with it to the next face.
+void FemWall::carry(Interaction& from, Interaction& to) const {
+    if (!from.isReal())
+        return;
+    to.geom = from.geom;
+    to.phys = from.phys;
+    to.functorCache = from.functorCache;
+    to.iterMadeReal = from.iterMadeReal;
+    to.iterLastSeen = scene->iter;
+    from.reset();
+}
+
+void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePair& pair) {
+    fl::WallTouch& touch = touches_[place];
+    Partner& partner = partners_[place];
+    touch.place = found;
+    wall_->follow(touch, patch, drift);
+    partner.contact = pair.contact;
+    partner.face = pair.face;
+    partner.sphere = pair.sphere;
+    partner.found = true;
+    touch.free_overlap =
+        wall_->free_overlap(found, touch.site, pair.sphere->state->pos - shift, radius_of(place));
+}
+
+/// Their stiffness is needed before the loop would have made them. A touch may be no contact: one that has
+/// parted from the wall where that is pressed in.
+void FemWall::make_new_contacts_real(FunctorLists& lists) {
+    for (size_t i = 0; i < touches_.size(); ++i) {
+        if (touches_[i].is_empty() || partners_[i].contact->isReal())
+            continue;
+        Partner& partner = partners_[i];
+        Interaction& contact = *partner.contact;
+        const auto geometry = lists.geometry(*partner.face->shape, *partner.sphere->shape).functor;
+        const auto physics = lists.physics(*partner.face->material, *partner.sphere->material);
+        auto& shape = static_cast<FemFace&>(*partner.face->shape);
+        shape.touches.assign(1, face_touch(i));
+        geometry->go(partner.face->shape, partner.sphere->shape, *partner.face->state, *partner.sphere->state,
+                     Vector3r::Zero(), false, partner.contact);
+        physics->go(partner.face->material, partner.sphere->material, partner.contact);
+        contact.functorCache.geom = geometry;
+        contact.functorCache.geomExists = true;
+        contact.functorCache.phys = physics;
+        contact.iterMadeReal = contact.iterLastSeen = scene->iter;
+    }
+}
+
+} // namespace yade
