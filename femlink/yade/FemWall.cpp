@@ -4,12 +4,14 @@
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
 #include <femlink/yade/Ig2_FemFace_Sphere_ScGeom.hpp>
 #include <laws/yade/GrainEffectPhys.hpp>
+#include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/InteractionContainer.hpp>
 #include <core/Scene.hpp>
 #include <pkg/common/Sphere.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace yade {
@@ -149,6 +151,7 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
     }
     if (restored_)
         find_interactions();
+    law_ = Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(*scene);
     compare_with_law();
     if (preparedStep >= 0)
         shift += scene->dt * velocity;
@@ -174,11 +177,16 @@ FaceTouch FemWall::face_touch(size_t place) const {
             touch.place.normal, overlap, partner.velocity + velocity};
 }
 
+/// Where the nodes are, for the next look for contacts.
+void FemWall::see_surface() {
+    positions_ = wall_->positions();
+    largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
+}
+
 /// What the functors and the collider read.
 void FemWall::write_faces() {
     if (positions_.cols() == 0) {
-        positions_ = wall_->positions();
-        largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
+        see_surface();
     }
     const fl::Surface& surface = wall_->surface();
     bool moved = false;

@@ -138,6 +138,7 @@ private:
     bool restored_ = false;                       // interactions not known yet
     FunctorLists lists_;                          // on YADE's own loop
     const Engine* listed_loop_ = nullptr;
+    const Law2_ScGeom_GrainPhys_HertzMindlin* law_ = nullptr; // of this step; null with YADE's own laws
     const FunctorLists* checked_lists_ = nullptr;
 
     int face_of(Body::id_t id) const {
@@ -145,6 +146,8 @@ private:
                    ? face_of_body_[static_cast<size_t>(id)]
                    : -1;
     }
+    static vector<Vector3r> by_node(const grainfall::femlink::Positions& columns);
+    void see_surface();
     void set_up();
     void restore();
     void find_interactions();

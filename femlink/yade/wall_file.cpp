@@ -15,12 +15,6 @@ namespace fl = grainfall::femlink;
 
 namespace {
 
-vector<Vector3r> list_of(const fl::Positions& columns) {
-    vector<Vector3r> list;
-    for (Eigen::Index i = 0; i < columns.cols(); ++i)
-        list.push_back(columns.col(i));
-    return list;
-}
 boost::python::list points(const fl::Positions& columns, const Vector3r& offset = Vector3r::Zero()) {
     boost::python::list out;
     for (Eigen::Index i = 0; i < columns.cols(); ++i)
@@ -35,6 +29,13 @@ const fl::QuasiStaticWall& loaded(const std::unique_ptr<fl::QuasiStaticWall>& wa
 }
 
 } // namespace
+
+vector<Vector3r> FemWall::by_node(const fl::Positions& columns) {
+    vector<Vector3r> list;
+    for (Eigen::Index i = 0; i < columns.cols(); ++i)
+        list.push_back(columns.col(i));
+    return list;
+}
 
 void FemWall::postLoad(FemWall&) {
     validate();
@@ -105,13 +106,11 @@ void FemWall::preSave(FemWall&) {
     savedNumbers.clear();
     if (!wall_)
         return;
-    savedGlideStart = list_of(glide_start_);
-    savedLoadSum = list_of(load_sum_);
+    savedGlideStart = by_node(glide_start_);
+    savedLoadSum = by_node(load_sum_);
     wall_->forget_matrix(); // so that this run goes on as the saved one will, to the last bit
-    for (int i = 0; i < wall_->surface().node_count(); ++i) {
-        savedDisplacement.push_back(wall_->displacement().col(i));
-        savedForces.push_back(wall_->nodal_forces().col(i));
-    }
+    savedDisplacement = by_node(wall_->displacement());
+    savedForces = by_node(wall_->nodal_forces());
     for (size_t i = 0; i < touches_.size(); ++i) {
         const fl::WallTouch& touch = touches_[i];
         savedTouches.emplace_back(touch.sphere, touch.place.face, touch.anchor.face);

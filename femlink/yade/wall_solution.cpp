@@ -65,15 +65,14 @@ fl::LawContact FemWall::law_contact(size_t place, int steps) const {
         touch.free_overlap + touch.seen_before.dot(normal) + span * (state.vel - velocity).dot(normal);
     Vector3r shear = Vector3r::Zero();
     if (const auto* grain = dynamic_cast<const GrainPhys*>(partner.contact->phys.get())) {
-        const auto* law = Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(*scene);
-        const bool report = law && law->normalLaw == "report";
-        const bool shears = !law || law->tangentialLaw != "none";
+        const bool report = law_ && law_->normalLaw == "report";
+        const bool shears = !law_ || law_->tangentialLaw != "none";
         out.relation.coefficient = (report ? 0.5 : 1) * grain->normalCoefficient;
         out.relation.damping = (report ? std::sqrt(0.5) : 1) * grain->normalDamping;
         out.relation.attracts = ContactClass(grain->contactClass).dashpot() == DashpotForm::attractive;
         out.shear_coefficient = shears ? grain->shearCoefficient : 0;
         out.shear_damping = shears ? grain->shearDamping : 0;
-        out.loses_on_unloading = !law || law->tangentialLaw != "report";
+        out.loses_on_unloading = !law_ || law_->tangentialLaw != "report";
         out.stiffness_before = grain->ks;
         shear = grain->shearElastic;
         if (ContactClass(grain->contactClass).friction() == FrictionForm::constant)
@@ -113,8 +112,7 @@ void FemWall::solve(bool together) {
         else
             exchange(laws);
         solvedStep = scene->iter;
-        positions_ = wall_->positions();
-        largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
+        see_surface();
     }
     force = Vector3r::Zero();
     storedEnergy = 0;

@@ -5,6 +5,7 @@
 
 #include <femlink/yade/Ig2_FemFace_Sphere_ScGeom.hpp>
 #include <laws/yade/GrainPhys.hpp>
+#include <laws/yade/Law2_ScGeom_GrainPhys_HertzMindlin.hpp>
 
 #include <core/InteractionContainer.hpp>
 #include <core/Omega.hpp>
@@ -50,6 +51,7 @@ void FemWall::take_over(const vector<int>& face_ids, const vector<int>& spheres,
     lists_.set_scene(scene);
     set_up();
     check_functors(lists_);
+    law_ = Law2_ScGeom_GrainPhys_HertzMindlin::acting_in(*scene);
     std::map<std::pair<int, int>, Vector3r> shear_of;
     vector<FacePair> pairs;
     for (size_t i = 0; i < spheres.size(); ++i) {
@@ -90,18 +92,14 @@ void FemWall::settle() {
     if (continuum) { // its stress at rest is not known, only that it balances these forces
         const fl::Positions still = fl::Positions::Zero(3, wall_->surface().node_count());
         wall_->put(still, wall_->loads_on_nodes(touches_));
-        startForces.clear();
-        for (Eigen::Index i = 0; i < still.cols(); ++i)
-            startForces.push_back(wall_->nodal_forces().col(i));
+        startForces = by_node(wall_->nodal_forces());
         return;
     }
     wall_->settle_under(touches_);
-    datum.clear();
-    for (int i = 0; i < wall_->surface().node_count(); ++i)
-        datum.push_back(wall_->datum().col(i));
+    datum = by_node(wall_->datum());
     for (fl::WallTouch& touch : touches_)
         touch.seen = touch.seen_before = wall_->seen(touch.site);
-    positions_ = wall_->positions();
+    see_surface();
 }
 
 } // namespace yade

@@ -77,8 +77,7 @@ void FemWall::see_continuum() {
         force -= touch.site.axes * touch.force;
     }
     solvedStep = scene->iter;
-    positions_ = wall_->positions();
-    largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
+    see_surface();
 }
 
 } // namespace yade

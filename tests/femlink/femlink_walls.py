@@ -2,6 +2,11 @@
 """Walls and closed forms that the tests of the deformable wall share."""
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -11,6 +16,18 @@ from grainfall import femlink  # noqa: E402
 
 YOUNG, POISSON, DENSITY = 20e6, 0.3, 1600.0  # loose sand at small strain: Pa, 1, kg/m^3
 SAND = {0: (YOUNG, POISSON, DENSITY)}
+
+
+def run_script(script: Path, *arguments: str, threads: int = 1) -> None:
+    """Runs a script in a YADE of its own, with this package; it must leave with 0."""
+    package = str(Path(sys.modules["grainfall"].__file__).parents[1])
+    run = subprocess.run(
+        ["yade", f"-j{threads}", "-n", "-x", str(script), *arguments],
+        env={**os.environ, "PYTHONPATH": package},
+        capture_output=True,
+        timeout=300,
+    )
+    assert run.returncode == 0, run.stderr.decode()[-2000:]
 
 
 def node_contacts(surface: femlink.Surface, nodes: np.ndarray) -> tuple[list[int], np.ndarray]:

@@ -2,14 +2,11 @@
 """Many grains on a deformable wall: weight, energy, solving seldom, saving, threads, and what is refused."""
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from femlink_walls import femlink
+from femlink_walls import femlink, run_script
 from wall_scenes import (
     CACHE,
     PATHS,
@@ -163,18 +160,11 @@ def test_two_threads_find_what_one_finds(tmp_path: Path) -> None:
         "np.save(sys.argv[2], [tuple(b.state.pos) for b in O.bodies if b.dynamic])\n"
         "sys.stdout.flush(); os._exit(0)\n"
     )
-    package = str(Path(sys.modules["grainfall"].__file__).parents[1])
     for path in PATHS:
         found = []
         for threads in (1, 2):
             out = tmp_path / f"{path}{threads}.npy"
-            run = subprocess.run(
-                ["yade", f"-j{threads}", "-n", "-x", str(script), path, str(out)],
-                env={**os.environ, "PYTHONPATH": package},
-                capture_output=True,
-                timeout=300,
-            )
-            assert run.returncode == 0, run.stderr.decode()[-2000:]
+            run_script(script, path, str(out), threads=threads)
             found.append(np.load(out))
         # 1.5 ms of impacts: rounding grows, to far less than an overlap (1e-5 m).
         np.testing.assert_allclose(found[0], found[1], rtol=0, atol=1e-9)
@@ -214,13 +204,7 @@ def test_a_wall_from_a_file_loads_no_deal_ii(tmp_path: Path) -> None:
         "O.run(10, True)\n"
         "os._exit(1 * ('deal.ii' in Path('/proc/self/maps').read_text()) + 2 * (wall.contacts != 1))\n"
     )
-    run = subprocess.run(
-        ["yade", "-j1", "-n", "-x", str(script)],
-        env={**os.environ, "PYTHONPATH": str(Path(sys.modules["grainfall"].__file__).parents[1])},
-        capture_output=True,
-        timeout=120,
-    )
-    assert run.returncode == 0, run.stderr.decode()[-2000:]
+    run_script(script)
 
 
 @pytest.mark.parametrize(

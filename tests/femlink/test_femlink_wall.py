@@ -2,15 +2,12 @@
 """Contacts on the deformable wall, and what a scene without one does not load (MR-2629, Eq 22-27)."""
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from femlink_walls import POISSON, SAND, YOUNG, femlink, node_contacts
+from femlink_walls import POISSON, SAND, YOUNG, femlink, node_contacts, run_script
 
 RADIUS = 0.01  # m, a coarse grain
 GRAIN = (
@@ -37,13 +34,7 @@ def test_importing_grainfall_and_using_a_kept_wall_load_no_deal_ii(tmp_path: Pat
         "code += 8 * (not mapped('deal.ii'))\n"
         "os._exit(code)\n"
     )
-    run = subprocess.run(
-        ["yade", "-j1", "-n", "-x", str(script)],
-        env={**os.environ, "PYTHONPATH": str(Path(sys.modules["grainfall"].__file__).parents[1])},
-        capture_output=True,
-        timeout=120,
-    )
-    assert run.returncode == 0, run.stderr.decode()[-2000:]
+    run_script(script)
 
 
 def test_a_kept_wall_is_the_wall_that_was_built(tmp_path: Path) -> None:
