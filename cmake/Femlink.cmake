@@ -10,10 +10,8 @@ endif()
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(CHOLMOD_LIBRARY cholmod)
 find_library(TBB_LIBRARY tbb)
-find_library(LAPACK_LIBRARY lapack)
-find_library(BLAS_LIBRARY blas)
 set(GRAINFALL_CONTINUUM OFF)
-if(deal.II_FOUND AND CHOLMOD_INCLUDE_DIR AND CHOLMOD_LIBRARY AND TBB_LIBRARY AND LAPACK_LIBRARY AND BLAS_LIBRARY)
+if(deal.II_FOUND AND CHOLMOD_INCLUDE_DIR AND CHOLMOD_LIBRARY AND TBB_LIBRARY)
     set(GRAINFALL_CONTINUUM ON)
 elseif(GRAINFALL_WITH_DEALII STREQUAL "ON")
     message(FATAL_ERROR "No deal.II 9.4 with CHOLMOD found: install Debian's package 'libdeal.ii-dev' or leave out "
@@ -36,5 +34,4 @@ target_include_directories(grainfall_continuum SYSTEM PRIVATE ${DEAL_II_INCLUDE_
 find_library(DEALII_LIBRARY deal.ii REQUIRED HINTS "${DEAL_II_PATH}/lib/${CMAKE_LIBRARY_ARCHITECTURE}")
 target_link_libraries(grainfall_continuum
     PUBLIC grainfall_kernels
-    PRIVATE grainfall_warnings "${DEALII_LIBRARY}" "${TBB_LIBRARY}" "${CHOLMOD_LIBRARY}" "${LAPACK_LIBRARY}"
-            "${BLAS_LIBRARY}")
+    PRIVATE grainfall_warnings grainfall_dense "${DEALII_LIBRARY}" "${TBB_LIBRARY}" "${CHOLMOD_LIBRARY}")

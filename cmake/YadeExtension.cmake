@@ -41,7 +41,7 @@ file(GLOB extension_sources CONFIGURE_DEPENDS
     "${PROJECT_SOURCE_DIR}/femlink/yade/*.cpp"
     "${PROJECT_SOURCE_DIR}/python/module/*.cpp")
 add_library(grainfall_core MODULE ${extension_sources})
-target_link_libraries(grainfall_core PRIVATE yade_interface grainfall_warnings)
+target_link_libraries(grainfall_core PRIVATE yade_interface grainfall_dense grainfall_warnings)
 # A square root need not report its errors to errno: it is one instruction then.
 target_compile_options(grainfall_core PRIVATE -fno-math-errno)
 # At -O2 the compiler leaves Eigen's loops over three numbers out of line where several kernels share them, and a
@@ -65,7 +65,7 @@ find_package(pybind11 2.10 REQUIRED CONFIG)
 function(grainfall_add_femlink_module name)
     add_library(grainfall_femlink_${name} MODULE "${PROJECT_SOURCE_DIR}/femlink/module/${name}_module.cpp")
     target_link_libraries(grainfall_femlink_${name} PRIVATE
-        grainfall_kernels grainfall_warnings pybind11::headers Python3::Module ${ARGN})
+        grainfall_kernels grainfall_dense grainfall_warnings pybind11::headers Python3::Module ${ARGN})
     # g++ 12 takes pybind11's move of an Eigen vector for a read of an unset one.
     target_compile_options(grainfall_femlink_${name} PRIVATE -Wno-maybe-uninitialized)
     set_target_properties(grainfall_femlink_${name} PROPERTIES

@@ -28,6 +28,15 @@ struct ContactSite {
     }
 };
 
+using Sites = std::vector<const ContactSite*>;
+
+inline Sites listed(const std::vector<ContactSite>& sites) {
+    Sites out;
+    for (const ContactSite& site : sites)
+        out.push_back(&site);
+    return out;
+}
+
 inline Eigen::Matrix3d contact_axes(const Point& normal) {
     Eigen::Matrix3d axes;
     axes.col(0) = normal;
@@ -36,87 +45,120 @@ inline Eigen::Matrix3d contact_axes(const Point& normal) {
     return axes;
 }
 
-class LoadedCompliance {
+// The loose nodes under the patches of some contacts, and C between them.
+class LoadedNodes {
 public:
-    LoadedCompliance(const Surface& surface, const Eigen::MatrixXd& compliance)
-        : surface_(surface), compliance_(compliance), slot_(surface.loose_count(), -1) {}
+    LoadedNodes(const Surface& surface, const Eigen::MatrixXd& compliance)
+        : surface_(surface), whole_(compliance), slot_(surface.loose_count(), -1) {}
 
-    // G of these contacts. Contacts on fixed nodes, or with an empty patch, get zeros: there the wall is
-    // rigid. Only what differs from the call before is computed, contact by contact in their order: a caller
-    // that leaves a patch where it is until the contact has moved noticeably, and keeps contacts in their
-    // places, pays for the few that moved.
-    const Eigen::MatrixXd& condense(const std::vector<ContactSite>& sites) {
-        const std::size_t common = std::min(sites.size(), kept_.size());
-        std::vector<char> changed(sites.size(), 1);
-        for (std::size_t i = 0; i < common; ++i)
-            changed[i] = !(sites[i] == kept_[i]);
-        matrix_.conservativeResize(3 * sites.size(), 3 * sites.size());
-        gather(sites);
-        Eigen::MatrixXd response(loaded_.rows(), 3); // displacement of the loaded nodes under contact j
-        for (std::size_t j = 0; j < sites.size(); ++j) {
-            if (!changed[j])
-                continue;
-            respond(sites[j], response);
-            for (std::size_t i = 0; i < sites.size(); ++i) {
-                if (changed[i] && i > j)
-                    continue;
-                const Eigen::Matrix3d block = sites[i].axes.transpose() * seen(sites[i], response);
-                matrix_.block<3, 3>(3 * j, 3 * i) = block.transpose();
-                matrix_.block<3, 3>(3 * i, 3 * j) = block;
-            }
-        }
-        kept_ = sites;
-        return matrix_;
-    }
-
-    // The next matrix is computed as a whole, in the order in which a new one would be.
-    void forget() {
-        for (const int loose : used_)
-            slot_[loose] = -1;
-        used_.clear();
-        kept_.clear();
-    }
-
-    int loaded_nodes() const { return static_cast<int>(used_.size()); }
-
-private:
-    void gather(const std::vector<ContactSite>& sites) {
+    // A node that carries no load any more stays until such nodes are the most.
+    void gather(const Sites& sites) {
         std::vector<int> needed;
         bool all_there = true;
-        std::vector<char> wanted(slot_.size(), 0);
-        for (const ContactSite& site : sites) {
-            for (const int node : site.patch.nodes) {
+        wanted_.assign(slot_.size(), 0);
+        for (const ContactSite* site : sites) {
+            for (const int node : site->patch.nodes) {
                 const int loose = surface_.loose[node];
-                if (loose == Surface::fixed || wanted[loose])
+                if (loose == Surface::fixed || wanted_[loose])
                     continue;
-                wanted[loose] = 1;
+                wanted_[loose] = 1;
                 needed.push_back(loose);
                 all_there = all_there && slot_[loose] >= 0;
             }
         }
         if (all_there && used_.size() <= 2 * needed.size() + 32)
             return;
-        for (const int loose : used_)
-            slot_[loose] = -1;
+        forget();
         std::sort(needed.begin(), needed.end());
         used_ = needed;
-        const int n = static_cast<int>(used_.size());
+        const int n = count();
         for (int k = 0; k < n; ++k)
             slot_[used_[k]] = k;
-        loaded_.resize(3 * n, 3 * n);
+        compliance_.resize(3 * n, 3 * n);
         for (int b = 0; b < n; ++b)
             for (int a = 0; a < n; ++a)
-                loaded_.block<3, 3>(3 * a, 3 * b) = compliance_.block<3, 3>(3 * used_[a], 3 * used_[b]);
+                compliance_.block<3, 3>(3 * a, 3 * b) = whole_.block<3, 3>(3 * used_[a], 3 * used_[b]);
+        ++version_;
     }
 
+    void forget() {
+        for (const int loose : used_)
+            slot_[loose] = -1;
+        used_.clear();
+    }
+
+    int count() const { return static_cast<int>(used_.size()); }
+    // Place of a node of the surface among these; -1 where it is fixed.
+    int slot(int node) const {
+        const int loose = surface_.loose[node];
+        return loose == Surface::fixed ? -1 : slot_[loose];
+    }
+    const Eigen::MatrixXd& compliance() const { return compliance_; } // m/N, three rows a node
+    // Another number whenever the nodes, or their order, have changed.
+    long version() const { return version_; }
+
+private:
+    const Surface& surface_;
+    const Eigen::MatrixXd& whole_;
+    std::vector<int> slot_, used_; // place among the loaded nodes by loose node, and the other way round
+    std::vector<char> wanted_;
+    Eigen::MatrixXd compliance_;
+    long version_ = 0;
+};
+
+// G of some contacts, from step to step.
+class LoadedCompliance {
+public:
+    LoadedCompliance(const Surface& surface, const Eigen::MatrixXd& compliance)
+        : nodes_(surface, compliance) {}
+
+    // G of these contacts. Contacts on fixed nodes, or with an empty patch, get zeros: there the wall is
+    // rigid. Only what differs from the call before is computed, contact by contact in their order: a caller
+    // that leaves a patch where it is until the contact has moved noticeably, and keeps contacts in their
+    // places, pays for the few that moved.
+    const Eigen::MatrixXd& condense(const Sites& sites) {
+        const std::size_t common = std::min(sites.size(), kept_.size());
+        std::vector<char> changed(sites.size(), 1);
+        for (std::size_t i = 0; i < common; ++i)
+            changed[i] = !(*sites[i] == kept_[i]);
+        matrix_.conservativeResize(3 * sites.size(), 3 * sites.size());
+        nodes_.gather(sites);
+        Eigen::MatrixXd response(3 * nodes_.count(), 3); // displacement of the loaded nodes under contact j
+        kept_.resize(sites.size());
+        for (std::size_t j = 0; j < sites.size(); ++j) {
+            if (!changed[j])
+                continue;
+            kept_[j] = *sites[j];
+            respond(*sites[j], response);
+            for (std::size_t i = 0; i < sites.size(); ++i) {
+                if (changed[i] && i > j)
+                    continue;
+                const Eigen::Matrix3d block = sites[i]->axes.transpose() * seen(*sites[i], response);
+                matrix_.block<3, 3>(3 * j, 3 * i) = block.transpose();
+                matrix_.block<3, 3>(3 * i, 3 * j) = block;
+            }
+        }
+        return matrix_;
+    }
+    const Eigen::MatrixXd& condense(const std::vector<ContactSite>& sites) { return condense(listed(sites)); }
+
+    // The next matrix is computed as a whole, in the order in which a new one would be.
+    void forget() {
+        nodes_.forget();
+        kept_.clear();
+    }
+
+    LoadedNodes& nodes() { return nodes_; }
+
+private:
     // Columns: C B_j Q_j. A flat patch needs its nodes' columns only once for all three axes.
     void respond(const ContactSite& site, Eigen::MatrixXd& response) const {
         response.setZero();
         for (std::size_t b = 0; b < site.patch.nodes.size(); ++b) {
-            const int loose = surface_.loose[site.patch.nodes[b]];
-            if (loose == Surface::fixed)
+            const int slot = nodes_.slot(site.patch.nodes[b]);
+            if (slot < 0)
                 continue;
-            const auto columns = loaded_.middleCols<3>(3 * slot_[loose]);
+            const auto columns = nodes_.compliance().middleCols<3>(3 * slot);
             if (site.patch.is_flat())
                 response += site.patch.weights[b] * columns;
             else
@@ -129,10 +171,10 @@ private:
     Eigen::Matrix3d seen(const ContactSite& site, const Eigen::MatrixXd& response) const {
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         for (std::size_t a = 0; a < site.patch.nodes.size(); ++a) {
-            const int loose = surface_.loose[site.patch.nodes[a]];
-            if (loose == Surface::fixed)
+            const int slot = nodes_.slot(site.patch.nodes[a]);
+            if (slot < 0)
                 continue;
-            const auto rows = response.middleRows<3>(3 * slot_[loose]);
+            const auto rows = response.middleRows<3>(3 * slot);
             if (site.patch.is_flat())
                 sum += site.patch.weights[a] * rows;
             else
@@ -141,10 +183,8 @@ private:
         return sum;
     }
 
-    const Surface& surface_;
-    const Eigen::MatrixXd& compliance_;
-    std::vector<int> slot_, used_; // place among the loaded nodes by loose node, and the other way round
-    Eigen::MatrixXd loaded_, matrix_;
+    LoadedNodes nodes_;
+    Eigen::MatrixXd matrix_;
     std::vector<ContactSite> kept_; // that matrix_ is of
 };
 
@@ -167,15 +207,16 @@ inline Eigen::Matrix3d own_compliance(const Surface& surface, const Eigen::Matri
 }
 
 // Forces on the surface's nodes, N, one column a node, from the forces q on the grains.
+inline Positions nodal_forces(const Surface& surface, const Sites& sites, const Eigen::VectorXd& forces) {
+    Positions out = Positions::Zero(3, surface.node_count());
+    for (std::size_t i = 0; i < sites.size(); ++i)
+        spread(sites[i]->patch, -sites[i]->axes * forces.segment<3>(3 * i),
+               [&](int node, const Point& part) { out.col(node) += part; });
+    return out;
+}
 inline Positions nodal_forces(const Surface& surface, const std::vector<ContactSite>& sites,
                               const Eigen::VectorXd& forces) {
-    Positions out = Positions::Zero(3, surface.node_count());
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-        const Point push = -sites[i].axes * forces.segment<3>(3 * i);
-        for (std::size_t a = 0; a < sites[i].patch.nodes.size(); ++a)
-            out.col(sites[i].patch.nodes[a]) += sites[i].patch.block(a) * push;
-    }
-    return out;
+    return nodal_forces(surface, listed(sites), forces);
 }
 
 // Displacements of the surface's nodes, m, under forces on them. Fixed nodes stay.
@@ -196,9 +237,7 @@ inline Positions displacements(const Surface& surface, const Eigen::MatrixXd& co
 
 // What the contact at a site sees of the surface's displacement, in its own axes.
 inline Eigen::Vector3d seen_displacement(const ContactSite& site, const Positions& displacement) {
-    Point sum = Point::Zero();
-    for (std::size_t a = 0; a < site.patch.nodes.size(); ++a)
-        sum += site.patch.block(a).transpose() * displacement.col(site.patch.nodes[a]);
+    const Point sum = gathered(site.patch, [&](int node) { return displacement.col(node); });
     return site.axes.transpose() * sum;
 }
 

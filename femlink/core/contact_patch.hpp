@@ -48,6 +48,27 @@ struct ContactPatch {
     }
 };
 
+// B F, node by node: add(node, its part).
+template <class Add>
+void spread(const ContactPatch& patch, const Point& force, const Add& add) {
+    for (std::size_t a = 0; a < patch.nodes.size(); ++a)
+        add(patch.nodes[a],
+            patch.is_flat() ? Point(patch.weights[a] * force) : Point(patch.blocks[a] * force));
+}
+
+// B^T u, with of(node) the displacement of a node.
+template <class Of>
+Point gathered(const ContactPatch& patch, const Of& of) {
+    Point sum = Point::Zero();
+    for (std::size_t a = 0; a < patch.nodes.size(); ++a) {
+        if (patch.is_flat())
+            sum += patch.weights[a] * of(patch.nodes[a]);
+        else
+            sum += patch.blocks[a].transpose() * of(patch.nodes[a]);
+    }
+    return sum;
+}
+
 namespace detail {
 
 inline Eigen::Matrix3d cross_matrix(const Point& v) {

@@ -8,7 +8,8 @@
 //
 // Solved by projected nonlinear Gauss-Seidel: contact by contact, first p with s held, then s with p held,
 // each exactly. It needs no stiffness limit: the exchange of forces step by step diverges once K C > 1, this
-// is a descent for any K C, also where more contacts than degrees of freedom make G singular.
+// is a descent for any K C, also where more contacts than degrees of freedom make G singular. There it is a
+// slow one, and node_solver.hpp takes its place.
 #pragma once
 
 #include <femlink/core/normal_relation.hpp>
@@ -84,6 +85,26 @@ inline Eigen::Vector2d capped_shear(const Eigen::Matrix2d& compliance, double sh
     return shear * (limit / size);
 }
 
+// N, what a contact answers to the wall's yielding: p first, then s. `yielded` (m, in the contact's axes): G
+// q there, of which its own compliance (3 x 3) times `before`, its force until now, is its own doing.
+template <class Contact>
+Eigen::Vector3d contact_force(const Contact& contact, const Eigen::Matrix3d& own,
+                              const Eigen::Vector3d& yielded, const Eigen::Vector3d& before) {
+    const double free_here = contact.free_overlap - (yielded[0] - own(0, 0) * before[0]);
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    force[0] = in_series(contact.relation, own(0, 0), free_here, free_here - own(0, 0) * before[0]);
+    const double limit = contact.shear_limit(force[0]);
+    if (!(limit > 0))
+        return force;
+    const double change = force[0] - before[0];
+    const ShearSpring spring = contact.shear_spring(contact.free_overlap - (yielded[0] + own(0, 0) * change));
+    const Eigen::Matrix2d own_shear = own.bottomRightCorner<2, 2>();
+    const Eigen::Vector2d others =
+        yielded.tail<2>() + own.block<2, 1>(1, 0) * change - own_shear * before.tail<2>();
+    force.tail<2>() = capped_shear(own_shear, spring.stiffness, spring.stretch - others, limit);
+    return force;
+}
+
 // `forces`: three per contact; the values found in it are where the iteration starts (those of the step
 // before). Contact: WallContact, or what has `relation`, `free_overlap`, `shear_limit` and `shear_spring` as
 // that does.
@@ -99,7 +120,7 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<Conta
         report.converged = true;
         return report;
     }
-    // What has all but settled is left as it is: applying a change costs a column of G.
+    // What has all but settled is left as it is: applying a change costs three columns of G.
     constexpr double settled = 0.1; // of the tolerance
     double negligible = 0;
     for (int i = 0; i < count; ++i)
@@ -107,38 +128,18 @@ SolverReport solve_contacts(const Eigen::MatrixXd& wall, const std::vector<Conta
     for (; report.sweeps < options.max_sweeps && !report.converged;) {
         double change = 0, largest = 0;
         for (int i = 0; i < count; ++i) {
-            const Contact& contact = contacts[i];
             const int n = 3 * i;
-            const double own = wall(n, n);
-            const double overlap = contact.free_overlap - (yielded[n] - own * forces[n]);
-            const double found = in_series(contact.relation, own, overlap);
-            const bool moves = std::abs(found - forces[n]) > negligible;
-            const double normal = moves ? found : forces[n];
-            const double normal_change = normal - forces[n];
-            if (normal_change != 0) {
-                forces[n] = normal;
-                yielded += normal_change * wall.col(n);
+            const Eigen::Matrix3d own = wall.block<3, 3>(n, n);
+            const Eigen::Vector3d found =
+                contact_force<Contact>(contacts[i], own, yielded.segment<3>(n), forces.segment<3>(n));
+            const Eigen::Vector3d step = found - forces.segment<3>(n);
+            const double size = step.cwiseAbs().maxCoeff();
+            if (size > negligible) {
+                forces.segment<3>(n) = found;
+                yielded.noalias() += wall.middleCols<3>(n) * step;
+                change = std::max(change, size);
             }
-            const Eigen::Vector2d before = forces.segment<2>(n + 1);
-            const double limit = contact.shear_limit(normal);
-            Eigen::Vector2d shear = Eigen::Vector2d::Zero();
-            if (limit > 0) {
-                const ShearSpring spring = contact.shear_spring(contact.free_overlap - yielded[n]);
-                const Eigen::Matrix2d own_shear = wall.block<2, 2>(n + 1, n + 1);
-                const Eigen::Vector2d stretch =
-                    spring.stretch - (yielded.segment<2>(n + 1) - own_shear * before);
-                shear = capped_shear(own_shear, spring.stiffness, stretch, limit);
-            }
-            if (!moves && (shear - before).cwiseAbs().maxCoeff() <= negligible)
-                shear = before;
-            const Eigen::Vector2d shear_change = shear - before;
-            if (shear_change[0] != 0 || shear_change[1] != 0) {
-                forces.segment<2>(n + 1) = shear;
-                yielded.noalias() += wall.middleCols<2>(n + 1) * shear_change;
-            }
-            change = std::max(
-                {change, std::abs(normal_change), std::abs(shear_change[0]), std::abs(shear_change[1])});
-            largest = std::max(largest, normal);
+            largest = std::max(largest, forces[n]);
         }
         negligible = settled * options.tolerance * largest;
         ++report.sweeps;

@@ -27,23 +27,22 @@ struct LawRelation {
     double rate = 0;         // 1/dt, 1/s
     bool attracts = false;   // a dashpot that may pull
 
-    double force(double overlap) const {
+    double force(double overlap) const { return response(overlap).force; }
+    double stiffness(double overlap) const { return response(overlap).stiffness; }
+    Response response(double overlap) const {
         if (linear)
-            return coefficient * overlap;
-        const double root = std::sqrt(overlap);
-        const double total =
-            coefficient * overlap * root + damping * std::sqrt(root) * rate * (overlap - idle_overlap);
-        return attracts ? total : std::max(0.0, total);
-    }
-    double stiffness(double overlap) const {
-        if (linear)
-            return coefficient;
+            return {coefficient * overlap, coefficient};
         if (!(overlap > 0))
-            return 0;
-        const double root = std::sqrt(overlap), quarter = std::sqrt(root);
-        if (!attracts && force(overlap) == 0)
-            return 0;
-        return 1.5 * coefficient * root + damping * rate * quarter * (1.25 - 0.25 * idle_overlap / overlap);
+            return {0, 0};
+        const double root = std::sqrt(overlap);
+        const double spring = coefficient * root;
+        if (damping == 0)
+            return {spring * overlap, 1.5 * spring};
+        const double dashpot = damping * rate * std::sqrt(root);
+        const double force = spring * overlap + dashpot * (overlap - idle_overlap);
+        if (force <= 0 && !attracts)
+            return {0, 0};
+        return {force, 1.5 * spring + dashpot * (1.25 - 0.25 * idle_overlap / overlap)};
     }
 };
 

@@ -17,11 +17,11 @@
 // normal has turned by more than `turn`: moving it means computing a row of G anew.
 #pragma once
 
-#include <femlink/core/compliance.hpp>
 #include <femlink/core/law_contact.hpp>
 #include <femlink/core/staggered.hpp>
 #include <femlink/core/surface_contacts.hpp>
 #include <femlink/core/wall_model.hpp>
+#include <femlink/core/wall_solver.hpp>
 
 #include <memory>
 #include <utility>
@@ -39,11 +39,20 @@ struct WallTouch {
     Eigen::Vector3d force = Eigen::Vector3d::Zero();         // N on the sphere, in the site's axes
     Point seen = Point::Zero(), seen_before = Point::Zero(); // m, of the wall, now and a step before
 
+    // N, of the last solution for all, and its change from the one before: where the next starts.
+    Eigen::Vector3d solved = Eigen::Vector3d::Zero(), trend = Eigen::Vector3d::Zero();
+
     Eigen::Matrix3d own = Eigen::Matrix3d::Zero(); // m/N, compliance of the wall at the site, in its axes
     Point drift = Point::Zero();                   // m, of `others` in a step between solutions for all
 
     // m, what the loads of the other contacts do to the wall here, in the site's axes.
     Eigen::Vector3d others() const { return site.axes.transpose() * seen + own * force; }
+
+    // The next solution for all starts from the force as it is.
+    void forget_course() {
+        solved = force;
+        trend.setZero();
+    }
 
     bool is_empty() const { return sphere < 0; }
     double overlap() const { return free_overlap + seen.dot(site.axes.col(0)); }
@@ -57,7 +66,7 @@ public:
         : model_(std::make_unique<WallModel>(std::move(model))),
           unloaded_(model_->surface.nodes + model_->preload),
           displacement_(Positions::Zero(3, model_->surface.node_count())), nodal_forces_(displacement_),
-          datum_(displacement_), loaded_(model_->surface, model_->compliance) {}
+          datum_(displacement_), solver_(model_->surface, model_->compliance) {}
 
     const WallModel& model() const { return *model_; }
     const Surface& surface() const { return model_->surface; }
@@ -71,9 +80,9 @@ public:
     void put_datum(const Positions& datum) { datum_ = datum; }
 
     // The wall is where it is under the forces that the touches now hold.
-    void settle_under(std::vector<WallTouch>& touches) {
+    void settle_under(const std::vector<WallTouch>& touches) {
         auto [sites, forces] = loads(touches);
-        bear(touches, sites, forces);
+        bear(sites, forces);
         datum_ = displacement_;
     }
     // N, of the contacts on the wall.
@@ -93,11 +102,13 @@ public:
                            (touch.anchor.normal - touch.place.normal).norm() <= turn;
         if (stays)
             return false;
-        const Point force = touch.site.axes * touch.force;
+        const Eigen::Matrix3d axes = touch.site.axes;
         const Point left = seen(touch.site);
         touch.anchor = touch.place;
         put_site(touch, patch);
-        touch.force = touch.site.axes.transpose() * force;
+        const Eigen::Matrix3d turned = touch.site.axes.transpose() * axes;
+        for (Eigen::Vector3d* force : {&touch.force, &touch.solved, &touch.trend})
+            *force = turned * *force;
         // Another place on the wall, not a motion of the wall.
         const Point change = seen(touch.site) - left;
         touch.seen += change;
@@ -129,8 +140,20 @@ public:
     SolverReport solve(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts,
                        const SolverOptions& options) {
         auto [sites, forces] = loads(touches);
-        const SolverReport report = solve_contacts(loaded_.condense(sites), contacts, forces, options);
-        bear(touches, sites, forces);
+        std::vector<Eigen::Matrix3d> own;
+        own.reserve(touches.size());
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            own.push_back(touches[i].own);
+            forces.segment<3>(3 * i) = touches[i].solved + touches[i].trend;
+        }
+        const SolverReport report = solver_.solve(sites, own, contacts, forces, options);
+        bear(sites, forces);
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            WallTouch& touch = touches[i];
+            touch.force = forces.segment<3>(3 * i);
+            touch.trend = touch.force - touch.solved;
+            touch.solved = touch.force;
+        }
         return report;
     }
 
@@ -144,14 +167,24 @@ public:
         touch.force = before.force;
     }
 
-    // Between two solutions for all: this contact alone.
+    // After a solution for all, if the next comes in the next step.
+    void arrive(WallTouch& touch) const {
+        touch.seen = seen(touch.site);
+        touch.drift.setZero();
+    }
+
+    // Between two solutions for all, this contact alone; after one, what is left between it and its law.
     void solve_alone(WallTouch& touch, LawContact contact, const SolverOptions& options) const {
         const Eigen::Vector3d others = touch.others() + touch.site.axes.transpose() * touch.drift;
         contact.free_overlap += others[0];
         contact.shift += others.tail<2>();
-        Eigen::VectorXd force = touch.force;
-        solve_contacts<LawContact>(touch.own, {contact}, force, options);
-        touch.force = force;
+        double change = 0;
+        int sweeps = 0;
+        do {
+            const Eigen::Vector3d before = touch.force;
+            touch.force = contact_force<LawContact>(contact, touch.own, touch.own * before, before);
+            change = (touch.force - before).cwiseAbs().maxCoeff();
+        } while (change > options.tolerance * touch.force[0] && ++sweeps < options.max_sweeps);
         touch.seen = touch.site.axes * (others - touch.own * touch.force);
     }
 
@@ -163,15 +196,15 @@ public:
 
     // The staggered exchange: the wall under the forces that the law found in the last step, which the
     // touches hold. Returns its gain; from 1 on it diverges.
-    double exchange(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts) {
+    double exchange(const std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts) {
         const auto [sites, forces] = loads(touches);
-        const double gain = staggered_gain(loaded_.condense(sites), contacts);
-        bear(touches, sites, forces);
+        const double gain = staggered_gain(solver_.condense(sites), contacts);
+        bear(sites, forces);
         return gain;
     }
 
     // From here on as if read from a file.
-    void forget_matrix() { loaded_.forget(); }
+    void forget_matrices() { solver_.forget(); }
 
     // What the contacts see of the wall as it lies.
     Point seen(const ContactSite& site) const { return site.axes * seen_displacement(site, displacement_); }
@@ -186,28 +219,25 @@ private:
                              : face_frame<2>(s.face<2>(place.face, field), place.at).y;
     }
 
-    static std::pair<std::vector<ContactSite>, Eigen::VectorXd> loads(const std::vector<WallTouch>& touches) {
-        std::vector<ContactSite> sites;
+    static std::pair<Sites, Eigen::VectorXd> loads(const std::vector<WallTouch>& touches) {
+        Sites sites;
         Eigen::VectorXd forces(3 * touches.size());
         sites.reserve(touches.size());
         for (std::size_t i = 0; i < touches.size(); ++i) {
-            sites.push_back(touches[i].site);
+            sites.push_back(&touches[i].site);
             forces.segment<3>(3 * i) = touches[i].force;
         }
         return {std::move(sites), std::move(forces)};
     }
 
-    void bear(std::vector<WallTouch>& touches, const std::vector<ContactSite>& sites,
-              const Eigen::VectorXd& forces) {
+    void bear(const Sites& sites, const Eigen::VectorXd& forces) {
         nodal_forces_ = femlink::nodal_forces(surface(), sites, forces);
         displacement_ = displacements(surface(), model_->compliance, nodal_forces_);
-        for (std::size_t i = 0; i < touches.size(); ++i)
-            touches[i].force = forces.segment<3>(3 * i);
     }
 
-    std::unique_ptr<WallModel> model_; // at a fixed address: loaded_ refers to it
+    std::unique_ptr<WallModel> model_; // at a fixed address: solver_ refers to it
     Positions unloaded_, displacement_, nodal_forces_, datum_;
-    LoadedCompliance loaded_;
+    WallSolver solver_;
 };
 
 } // namespace grainfall::femlink

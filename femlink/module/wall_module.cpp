@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Python module grainfall.femlink._wall: meshes, surfaces, closest points, contact solver, wall files,
 // explicit continuum. Needs no deal.II.
-#include <femlink/core/compliance.hpp>
 #include <femlink/core/staggered.hpp>
+#include <femlink/core/wall_solver.hpp>
 #include <femlink/module/explicit_bindings.hpp>
 #include <femlink/module/mesh_bindings.hpp>
 #include <femlink/module/surface_bindings.hpp>
@@ -18,7 +18,7 @@ class Wall {
 public:
     explicit Wall(WallModel model)
         : model_(std::make_shared<WallModel>(std::move(model))),
-          loaded_(model_->surface, model_->compliance) {}
+          solver_(model_->surface, model_->compliance) {}
 
     const WallModel& model() const { return *model_; }
 
@@ -47,7 +47,7 @@ public:
 
     Eigen::MatrixXd compliance(const std::vector<int>& faces, const Rows& references, const Rows& normals,
                                double patch) {
-        return loaded_.condense(sites(faces, references, normals, patch));
+        return solver_.condense(listed(sites(faces, references, normals, patch)));
     }
 
     py::dict solve(const std::vector<int>& faces, const Rows& references, const Rows& normals, double patch,
@@ -96,15 +96,17 @@ private:
             contact.friction = friction;
             contacts.push_back(contact);
         }
-        const Eigen::MatrixXd& wall = loaded_.condense(sites);
+        std::vector<Eigen::Matrix3d> own;
+        for (const ContactSite& site : sites)
+            own.push_back(own_compliance(model_->surface, model_->compliance, site));
         Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * sites.size());
         if (start.size() == forces.size())
             forces = Eigen::Map<const Eigen::VectorXd>(start.data(), start.size());
         SolverReport report;
         if (coupling == "implicit")
-            report = solve_contacts(wall, contacts, forces, options);
+            report = solver_.solve(listed(sites), own, contacts, forces, options);
         else if (coupling == "staggered")
-            report = solve_staggered(wall, contacts, forces, options);
+            report = solve_staggered(solver_.condense(listed(sites)), contacts, forces, options);
         else
             laws::reject("coupling", "'" + coupling + "'", "'implicit' or 'staggered'");
         const Positions nodal = nodal_forces(model_->surface, sites, forces);
@@ -118,8 +120,8 @@ private:
         return out;
     }
 
-    std::shared_ptr<WallModel> model_; // at a fixed address: loaded_ refers to it
-    LoadedCompliance loaded_;
+    std::shared_ptr<WallModel> model_; // at a fixed address: solver_ refers to it
+    WallSolver solver_;
 };
 
 void bind_wall(py::module_& module) {

@@ -83,6 +83,7 @@ void FemWall::set_up() {
         shapes_.push_back(shape);
         face_of_body_[static_cast<size_t>(faces[i])] = static_cast<int>(i);
     }
+    surface_moved_ = true;
     write_faces();
 }
 
@@ -181,18 +182,27 @@ FaceTouch FemWall::face_touch(size_t place) const {
 void FemWall::see_surface() {
     positions_ = wall_->positions();
     largest_displacement_ = std::sqrt(wall_->displacement().colwise().squaredNorm().maxCoeff());
+    surface_moved_ = true;
 }
 
 /// What the functors and the collider read.
 void FemWall::write_faces() {
-    if (positions_.cols() == 0) {
+    if (positions_.cols() == 0)
         see_surface();
-    }
+    for (FemFace* shape : shapes_)
+        shape->touches.clear();
+    if (surface_moved_ || velocity != Vector3r::Zero())
+        move_faces();
+    for (size_t i = 0; i < touches_.size(); ++i)
+        if (!touches_[i].is_empty() && partners_[i].contact && partners_[i].contact->isReal())
+            shapes_[static_cast<size_t>(touches_[i].place.face)]->touches.push_back(face_touch(i));
+}
+
+void FemWall::move_faces() {
     const fl::Surface& surface = wall_->surface();
     bool moved = false;
     for (size_t f = 0; f < shapes_.size(); ++f) {
         FemFace& shape = *shapes_[f];
-        shape.touches.clear();
         shape.nodes.resize(static_cast<size_t>(surface.faces.rows()));
         shape.unloaded.resize(shape.nodes.size());
         for (size_t k = 0; k < shape.nodes.size(); ++k) {
@@ -202,11 +212,9 @@ void FemWall::write_faces() {
         }
         moved |= shape.has_left_bound();
     }
-    for (size_t i = 0; i < touches_.size(); ++i)
-        if (!touches_[i].is_empty() && partners_[i].contact && partners_[i].contact->isReal())
-            shapes_[static_cast<size_t>(touches_[i].place.face)]->touches.push_back(face_touch(i));
     if (moved)
         scene->doSort = true;
+    surface_moved_ = false;
 }
 
 } // namespace yade

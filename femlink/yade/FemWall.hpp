@@ -20,8 +20,8 @@
 #include <femlink/yade/scene_walls.hpp>
 #include <laws/yade/attribute_checks.hpp>
 
-#include <map>
 #include <memory>
+#include <utility>
 
 namespace yade {
 
@@ -73,11 +73,11 @@ public:
         ((Real, patch, 1.25, , "Radius of the disc over which a contact's load is spread, over the face's size [-], >= 0; 0: the report's point load."))
         ((Real, drift, 0.002, , "How far a contact may move before its load follows it, over the patch's radius [-], >= 0. 0 follows at each step."))
         ((Real, tolerance, 1e-6, , "Of the solver: largest change of a force in its last sweep over the largest force [-], in (0, 1)."))
-        ((int, maxSweeps, 300, , "Sweeps after which a step is left as it is, the next going on from there [-], >= 1; if forces then still change by more than a fifth of the largest, the run stops with an error."))
+        ((int, maxSweeps, 300, , "Sweeps over the contacts (or iterations for all of them) after which a step is left as it is, the next going on from there [-], >= 1; if forces then still change by more than a fifth of the largest, the run stops with an error."))
         ((Vector3r, velocity, Vector3r::Zero(), , "Velocity [m/s] of the outer boundary, and with it of the whole wall as a rigid body."))
         ((Vector3r, shift, Vector3r::Zero(), Attr::readonly, "How far the outer boundary has moved [m]."))
         ((int, contacts, 0, Attr::readonly, "Contacts in the last step."))
-        ((int, sweeps, 0, Attr::readonly, "Sweeps of the solver in the last step that solved."))
+        ((int, sweeps, 0, Attr::readonly, "Sweeps, or iterations, of the solver in the last step that solved."))
         ((Real, lastChange, 0, Attr::readonly, "Largest change of a force in the last sweep over the largest force [-]."))
         ((long, unfinishedSteps, 0, Attr::readonly, "Steps in which the tolerance was not reached within maxSweeps."))
         ((Real, disagreement, 0, Attr::readonly, "Largest difference in the last step but one between the force that the wall was solved for and that of the law, over the largest force [-]."))
@@ -134,9 +134,12 @@ private:
     grainfall::femlink::Positions positions_; // of the surface's nodes, without `shift`
     Real largest_displacement_ = 0;
     grainfall::femlink::Positions glide_start_, load_sum_;
-    std::map<Body::id_t, vector<size_t>> places_; // in touches_, by sphere
-    bool restored_ = false;                       // interactions not known yet
-    FunctorLists lists_;                          // on YADE's own loop
+    using Place = std::pair<Body::id_t, size_t>; // a sphere, and where in touches_
+    using Places = std::pair<vector<Place>::const_iterator, vector<Place>::const_iterator>;
+    vector<Place> places_; // sorted
+    bool surface_moved_ = true;
+    bool restored_ = false; // interactions not known yet
+    FunctorLists lists_;    // on YADE's own loop
     const Engine* listed_loop_ = nullptr;
     const Law2_ScGeom_GrainPhys_HertzMindlin* law_ = nullptr; // of this step; null with YADE's own laws
     const FunctorLists* checked_lists_ = nullptr;
@@ -156,7 +159,7 @@ private:
     void compare_with_law();
     void find_touches(vector<FacePair>& pairs);
     void find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>::iterator end);
-    size_t known_touch(const FacePair& pair) const;
+    size_t known_touch(const Places& of_sphere, const FacePair& pair) const;
     size_t new_touch();
     void forget_touch(size_t place);
     void follow(size_t place, const grainfall::femlink::SurfaceContact& found, const FacePair& pair);
@@ -172,6 +175,7 @@ private:
     void exchange(const vector<grainfall::femlink::LawContact>& laws);
     void settle();
     void write_faces();
+    void move_faces();
     FaceTouch face_touch(size_t place) const;
     Real radius_of(size_t place) const;
 };

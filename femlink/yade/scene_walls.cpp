@@ -30,12 +30,13 @@ bool has_walls(const Scene& scene) {
     return !walls_of(scene).empty();
 }
 
-void prepare_walls(Scene& scene, const vector<FacePair>& pairs, FunctorLists& functors) {
+void prepare_walls(Scene& scene, vector<FacePair> pairs, FunctorLists& functors) {
     for (FemWall* wall : walls_of(scene)) {
         wall->scene = &scene;
-        vector<FacePair> own;
-        std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(own),
-                     [&](const FacePair& pair) { return wall->has_face(*pair.face); });
+        const auto others = std::partition(pairs.begin(), pairs.end(),
+                                           [&](const FacePair& pair) { return wall->has_face(*pair.face); });
+        vector<FacePair> own(std::make_move_iterator(pairs.begin()), std::make_move_iterator(others));
+        pairs.erase(pairs.begin(), others);
         wall->prepare(own, functors);
     }
 }

@@ -34,7 +34,7 @@ struct ExchangeLimit {
 bool is_wall(const Engine& engine);
 bool has_walls(const Scene& scene);
 /// Solves the walls of a scene whose loop knows the pairs that are near.
-void prepare_walls(Scene& scene, const vector<FacePair>& pairs, FunctorLists& functors);
+void prepare_walls(Scene& scene, vector<FacePair> pairs, FunctorLists& functors);
 /// The same where YADE's collider has found them.
 void prepare_walls(Scene& scene);
 WallEnergies wall_energies(const Scene& scene);

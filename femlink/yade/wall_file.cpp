@@ -90,6 +90,7 @@ void FemWall::restore() {
             touch.anchor.normal = three(2);
             wall_->put_site(touch, patch);
             touch.force = three(5);
+            touch.forget_course();
             touch.seen = three(8);
             touch.drift = three(11);
             partner.velocity = three(14);
@@ -108,7 +109,10 @@ void FemWall::preSave(FemWall&) {
         return;
     savedGlideStart = by_node(glide_start_);
     savedLoadSum = by_node(load_sum_);
-    wall_->forget_matrix(); // so that this run goes on as the saved one will, to the last bit
+    // So that this run goes on as the saved one will, to the last bit.
+    wall_->forget_matrices();
+    for (fl::WallTouch& touch : touches_)
+        touch.forget_course();
     savedDisplacement = by_node(wall_->displacement());
     savedForces = by_node(wall_->nodal_forces());
     for (size_t i = 0; i < touches_.size(); ++i) {
@@ -140,7 +144,8 @@ boost::python::list FemWall::node_displacements() {
 }
 
 boost::python::list FemWall::node_forces() {
-    return points(loaded(wall_).nodal_forces());
+    const fl::QuasiStaticWall& wall = loaded(wall_);
+    return points(continuum ? wall.nodal_forces() : wall.loads_on_nodes(touches_));
 }
 
 boost::python::list FemWall::face_nodes() {

@@ -123,8 +123,8 @@ void FemWall::solve(bool together) {
         if (together && in_between)
             wall_->approach(touch, before[i], interval);
         else if (together)
-            touch.seen = wall_->seen(touch.site);
-        if (in_between)
+            wall_->arrive(touch);
+        if (coupling == "implicit")
             wall_->solve_alone(touch, together ? law_contact(i) : laws[i], options);
         const Vector3r push = touch.site.axes * touch.force;
         partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;

@@ -88,6 +88,7 @@ void FemWall::settle() {
         touch.own.setZero(); // the wall held
         wall_->solve_alone(touch, law_contact(i), options);
         touch.own = own;
+        touch.forget_course();
     }
     if (continuum) { // its stress at rest is not known, only that it balances these forces
         const fl::Positions still = fl::Positions::Zero(3, wall_->surface().node_count());

@@ -17,13 +17,10 @@ namespace {
 constexpr size_t nowhere = static_cast<size_t>(-1);
 }
 
-size_t FemWall::known_touch(const FacePair& pair) const {
-    const auto places = places_.find(pair.sphere->id);
-    if (places == places_.end())
-        return nowhere;
-    for (const size_t i : places->second)
-        if (faces[static_cast<size_t>(touches_[i].place.face)] == pair.face->id)
-            return i;
+size_t FemWall::known_touch(const Places& of_sphere, const FacePair& pair) const {
+    for (auto place = of_sphere.first; place != of_sphere.second; ++place)
+        if (faces[static_cast<size_t>(touches_[place->second].place.face)] == pair.face->id)
+            return place->second;
     return nowhere;
 }
 
@@ -51,10 +48,11 @@ void FemWall::find_touches(vector<FacePair>& pairs) {
     for (size_t i = 0; i < touches_.size(); ++i) {
         partners_[i].found = false;
         if (!touches_[i].is_empty())
-            places_[touches_[i].sphere].push_back(i);
+            places_.emplace_back(touches_[i].sphere, i);
     }
-    std::sort(pairs.begin(), pairs.end(), [&](const FacePair& a, const FacePair& b) {
-        return std::make_pair(a.sphere->id, a.face->id) < std::make_pair(b.sphere->id, b.face->id);
+    std::sort(places_.begin(), places_.end());
+    std::sort(pairs.begin(), pairs.end(), [](const FacePair& a, const FacePair& b) {
+        return a.sphere->id != b.sphere->id ? a.sphere->id < b.sphere->id : a.face->id < b.face->id;
     });
     for (auto begin = pairs.begin(); begin != pairs.end();) {
         const auto end = std::find_if(begin, pairs.end(),
@@ -78,6 +76,10 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     const Body& sphere = *begin->sphere;
     const Real radius = static_cast<const Sphere&>(*sphere.shape).radius;
     const Vector3r centre = sphere.state->pos - shift;
+    const Places known{
+        std::lower_bound(places_.begin(), places_.end(), Place(sphere.id, 0)),
+        std::upper_bound(places_.begin(), places_.end(), Place(sphere.id, nowhere)),
+    };
     vector<int> near, held;
     // A wall that is pressed in comes back as the load leaves it, so all that is inside the unloaded wall
     // takes part; a bridge holds on further out.
@@ -85,7 +87,7 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     for (auto pair = begin; pair != end; ++pair) {
         const int face = face_of(pair->face->id);
         near.push_back(face);
-        const size_t place = known_touch(*pair);
+        const size_t place = known_touch(known, *pair);
         if (place != nowhere)
             held.push_back(face);
         const auto* phys = dynamic_cast<const GrainPhys*>(pair->contact->phys.get());
@@ -104,14 +106,15 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     vector<char> placed(found.size(), 0);
     for (size_t k = 0; k < found.size(); ++k) { // where they were
         const auto pair = pair_of(found[k].face);
-        const size_t place = known_touch(*pair);
+        const size_t place = known_touch(known, *pair);
         if (place == nowhere || !takes_part(found[k], pair->contact->isReal()))
             continue;
         follow(place, found[k], *pair);
         placed[k] = 1;
     }
     for (size_t k = 0; k < found.size(); ++k) { // from another face
-        for (const size_t i : places_[sphere.id]) {
+        for (auto place = known.first; place != known.second; ++place) {
+            const size_t i = place->second;
             Partner& old = partners_[i];
             if (placed[k] || old.found || !old.contact ||
                 touches_[i].anchor.normal.dot(found[k].normal) < fl::smooth_cosine ||

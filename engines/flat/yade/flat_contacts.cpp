@@ -163,10 +163,11 @@ void FlatGrains::prepare_walls(Scene& scene) {
     if (!has_walls(scene))
         return;
     vector<FacePair> pairs;
+    const int face = FemFace::getClassIndexStatic();
     for (const GeneralPair& pair : general_.all())
-        if (dynamic_cast<const FemFace*>(pair.first->shape.get()) && is_flat(pair.second->id))
+        if (pair.first->shape->getClassIndex() == face && is_flat(pair.second->id))
             pairs.push_back({pair.contact, pair.first, pair.second});
-    yade::prepare_walls(scene, pairs, functors);
+    yade::prepare_walls(scene, std::move(pairs), functors);
 }
 
 void FlatGrains::settle_books() {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Dense matrices by LAPACK and BLAS, which YADE has in its process anyway: inside the extension Eigen may not
+// use vector instructions (YADE was laid out without).
+#pragma once
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+extern "C" {
+void dgemv_(const char* transposed, const int* rows, const int* columns, const double* factor,
+            const double* matrix, const int* stride, const double* x, const int* step_x,
+            const double* factor_y, double* y, const int* step_y, std::size_t);
+void dgetrf_(const int* rows, const int* columns, double* matrix, const int* stride, int* pivots, int* info);
+void dgetrs_(const char* transposed, const int* size, const int* right_sides, const double* matrix,
+             const int* stride, const int* pivots, double* right, const int* stride_right, int* info,
+             std::size_t);
+void dpotrf_(const char* half, const int* size, double* matrix, const int* stride, int* info, std::size_t);
+void dpotri_(const char* half, const int* size, double* matrix, const int* stride, int* info, std::size_t);
+}
+
+namespace grainfall::femlink::dense {
+
+// y = A x
+inline void multiply(const Eigen::MatrixXd& a, const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+    const int rows = static_cast<int>(a.rows()), columns = static_cast<int>(a.cols()), one = 1;
+    const int stride = std::max(1, rows);
+    const double with = 1, without = 0;
+    y.resize(rows);
+    dgemv_("N", &rows, &columns, &with, a.data(), &stride, x.data(), &one, &without, y.data(), &one, 1);
+}
+
+// Inverse of a symmetric positive definite matrix; empty where it is not that.
+inline Eigen::MatrixXd inverse(Eigen::MatrixXd a) {
+    const int size = static_cast<int>(a.rows()), stride = std::max(1, size);
+    int info = 0;
+    dpotrf_("L", &size, a.data(), &stride, &info, 1);
+    if (info == 0)
+        dpotri_("L", &size, a.data(), &stride, &info, 1);
+    if (info != 0)
+        return {};
+    a.triangularView<Eigen::StrictlyUpper>() = a.transpose();
+    return a;
+}
+
+// LU with row pivots.
+class Factor {
+public:
+    void compute(Eigen::MatrixXd a) {
+        matrix_.swap(a);
+        const int size = static_cast<int>(matrix_.rows()), stride = std::max(1, size);
+        int info = 0;
+        pivots_.resize(static_cast<std::size_t>(size));
+        dgetrf_(&size, &size, matrix_.data(), &stride, pivots_.data(), &info);
+    }
+    void solve_in_place(Eigen::VectorXd& right) const {
+        const int size = static_cast<int>(matrix_.rows()), stride = std::max(1, size), one = 1;
+        int info = 0;
+        dgetrs_("N", &size, &one, matrix_.data(), &stride, pivots_.data(), right.data(), &stride, &info, 1);
+    }
+
+private:
+    Eigen::MatrixXd matrix_;
+    std::vector<int> pivots_;
+};
+
+} // namespace grainfall::femlink::dense
