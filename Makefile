@@ -49,6 +49,7 @@ bench-wall: package
 	$(BUILD)/benchmarks/closest_point_cost
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_cost.py
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_scene.py
+	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_accuracy.py
 
 # How near the boundary of a bed may be, with a continuum outside and without: docs/physics/far_field.md. An hour or two.
 bench-far-field: package

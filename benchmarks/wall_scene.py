@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import statistics
+import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -34,7 +35,7 @@ from yade import (
     utils,
 )
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(sys.argv[0]).resolve().parents[1]
 RADIUS = 0.005  # m
 YOUNG = 20e6  # Pa, of the soil
 ROUNDS = 3

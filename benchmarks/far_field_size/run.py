@@ -26,7 +26,7 @@ def main() -> None:
     """Run and report."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=2, help="packings of each size")
-    parser.add_argument("--interval", type=int, default=10, help="--far-field-interval")
+    parser.add_argument("--interval", type=int, default=1, help="--far-field-interval")
     parser.add_argument("--at-most", type=int, default=10_000, help="drops before stopping")
     parser.add_argument("--report-only", action="store_true", help="run nothing")
     options = parser.parse_args()

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 DIAMETER = 0.057  # m, of the replica
-#: Half-widths in diameters: of near fields with rigid walls, of those in a continuum too (a larger one has more
-#: contacts with it than its grains cost), and of the bed that is grains throughout.
-NEAR, IN_CONTINUUM, WHOLE = (1.25, 1.75, 2.5), (1.25, 1.75), 3.5
+#: Half-widths in diameters: of near fields with rigid walls and in a continuum, and of the bed that is grains
+#: throughout.
+NEAR, WHOLE = (1.25, 1.75, 2.5), 3.5
 #: Steps between common solutions that are tried in the smallest near field.
 INTERVALS = (10, 30, 100)
 DEPTH, GRAIN, YOUNG, END = 0.15, 12e-3, 2e8, 0.05
@@ -69,8 +69,7 @@ def cases(seeds: int, interval: int) -> list[Case]:
     for seed in range(1, seeds + 1):
         for half_width in NEAR:
             found.append(Case(half_width, RIGID, 0, seed))
-            if half_width in IN_CONTINUUM:
-                found.append(Case(half_width, CONTINUUM, interval, seed))
+            found.append(Case(half_width, CONTINUUM, interval, seed))
         found.append(Case(WHOLE, RIGID, 0, seed))
     found += [Case(NEAR[0], CONTINUUM, n, seed) for n in INTERVALS for seed in range(1, seeds + 1)]
     return list(dict.fromkeys(found))

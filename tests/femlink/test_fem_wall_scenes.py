@@ -116,6 +116,8 @@ def test_more_contacts_than_the_surface_has_unknowns() -> None:
             most = max(most, wall.contacts)
         assert np.isfinite(ledger.residual)  # noqa: F821
         assert ledger.largestResidual < 2e-2 * ledger.energyInPlay, young  # noqa: F821
+        # As they first touch, a hundred at once on one node, ground of 100 Pa leaves 8 steps of 2000 unfinished.
+        assert wall.unfinishedSteps <= (20 if young == 1e2 else 0), young
         unknowns = 3 * wall_unknowns(wall)
         assert most > unknowns
 

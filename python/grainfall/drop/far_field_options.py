@@ -73,9 +73,9 @@ FAR_FIELD = (
     ),
     Option(
         "far_field_interval",
-        10,
+        None,
         "steps between two solutions for all contacts on the continuum together, each solved alone in between; with "
-        "explicit, between two motions of the continuum",
+        "explicit, between two motions of the continuum (default: 1; explicit: 10)",
         kind=int,
         low=1,
     ),
@@ -129,10 +129,12 @@ def near_field_is_one_box(values: dict[str, Any], given: Mapping[str, Any]) -> N
 
 
 def continuum_is_meshed(values: dict[str, Any], given: Mapping[str, Any]) -> None:
-    """Thickness and cells follow the box where they are not given, and fit it."""
+    """Thickness, cells and interval where they are not given; those that are fit the box."""
     if values["far_field"] == "rigid":
         return
     sides = (values["box_length"], values["box_width"])
+    if values["far_field_interval"] is None:
+        values["far_field_interval"] = 10 if values["far_field"] == "explicit" else 1
     if values["far_field_thickness"] is None:
         values["far_field_thickness"] = max(sides) / 2
     room = min(*sides, values["far_field_thickness"])
