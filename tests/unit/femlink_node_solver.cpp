@@ -52,46 +52,68 @@ struct Bed {
     }
 };
 
-constexpr double ratios[] = {1e-3, 0.1, 1., 10., 1e3, 1e6};
+constexpr double ratios[] = {1e-3, 1., 1e3, 1e6};
 
-TEST(NodeSolver, finds_the_forces_that_contact_by_contact_finds_for_any_stiffness_and_number) {
-    for (const int count : {12, 30, 120, 400}) { // on 25 nodes
+// How far each contact's own answer to the wall under all forces is from its force, over the forces.
+double unrest(const Bed& bed, const Eigen::VectorXd& forces) {
+    const Positions moved = displacements(bed.wall.surface, bed.wall.compliance,
+                                          nodal_forces(bed.wall.surface, bed.sites, forces));
+    double sum = 0;
+    for (std::size_t i = 0; i < bed.sites.size(); ++i) {
+        const Eigen::Vector3d force = forces.segment<3>(3 * static_cast<Eigen::Index>(i));
+        const Eigen::Vector3d yielded = -seen_displacement(bed.sites[i], moved);
+        sum += (contact_force(bed.contacts[i], bed.own[i], yielded, force) - force).squaredNorm();
+    }
+    return std::sqrt(sum) / forces.norm();
+}
+
+TEST(NodeSolver, finds_the_forces_that_contact_by_contact_finds_for_any_stiffness) {
+    for (const double ratio : ratios) {
+        Bed bed(4, 20, ratio); // on 25 nodes
+        LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+        NodeSolver solver(loaded.nodes());
+        Eigen::VectorXd together = Eigen::VectorXd::Zero(60), one_by_one = together;
+        EXPECT_TRUE(solver.solve(listed(bed.sites), bed.own, bed.contacts, together, {1e-10, 1000}).converged)
+            << ratio;
+        solve_contacts(loaded.condense(bed.sites), bed.contacts, one_by_one, {1e-11, 50000});
+        // Sweeps that hardly change anything may be a hundred changes from the end.
+        EXPECT_LT((together - one_by_one).norm(), 1e-8 * one_by_one.norm()) << ratio;
+    }
+}
+
+TEST(NodeSolver, with_any_number_of_contacts_each_answers_with_its_force) {
+    for (const int count : {30, 80}) { // on 25 nodes
         for (const double ratio : ratios) {
             Bed bed(4, count, ratio);
             LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
             NodeSolver solver(loaded.nodes());
-            Eigen::VectorXd together = Eigen::VectorXd::Zero(3 * count), one_by_one = together;
-            const SolverReport report =
-                solver.solve(listed(bed.sites), bed.own, bed.contacts, together, {1e-10, 1000});
-            EXPECT_TRUE(report.converged) << count << " contacts, K C " << ratio;
-            solve_contacts(loaded.condense(bed.sites), bed.contacts, one_by_one, {1e-11, 50000});
-            // Sweeps that hardly change anything may be a hundred changes from the end.
-            EXPECT_LT((together - one_by_one).norm(), 1e-8 * one_by_one.norm())
+            Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * count);
+            EXPECT_TRUE(
+                solver.solve(listed(bed.sites), bed.own, bed.contacts, forces, {1e-10, 1000}).converged)
                 << count << " contacts, K C " << ratio;
+            EXPECT_LT(unrest(bed, forces), 1e-8) << count << " contacts, K C " << ratio;
         }
     }
 }
 
 TEST(NodeSolver, follows_moving_grains_in_a_tenth_of_the_sweeps_where_contacts_outnumber_nodes) {
-    for (const double ratio : {1e3, 1e6}) {
-        Bed bed(4, 400, ratio);
-        LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
-        NodeSolver solver(loaded.nodes());
-        const Eigen::MatrixXd compliance = loaded.condense(bed.sites);
-        Eigen::VectorXd forces = Eigen::VectorXd::Zero(1200);
-        solver.solve(listed(bed.sites), bed.own, bed.contacts, forces, {1e-10, 1000});
-        int iterations = 0, sweeps = 0;
-        for (int step = 0; step < 20; ++step) {
-            bed.move();
-            Eigen::VectorXd one_by_one = forces;
-            sweeps += solve_contacts(compliance, bed.contacts, one_by_one, {1e-6, 20000}).sweeps;
-            const SolverReport report =
-                solver.solve(listed(bed.sites), bed.own, bed.contacts, forces, {1e-6, 1000});
-            EXPECT_TRUE(report.converged);
-            iterations += report.sweeps;
-        }
-        EXPECT_LT(10 * iterations, sweeps) << ratio;
+    Bed bed(4, 100, 1e3);
+    LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+    NodeSolver solver(loaded.nodes());
+    const Eigen::MatrixXd compliance = loaded.condense(bed.sites);
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(300);
+    solver.solve(listed(bed.sites), bed.own, bed.contacts, forces, {1e-10, 1000});
+    int iterations = 0, sweeps = 0;
+    for (int step = 0; step < 6; ++step) {
+        bed.move();
+        Eigen::VectorXd one_by_one = forces;
+        sweeps += solve_contacts(compliance, bed.contacts, one_by_one, {1e-6, 20000}).sweeps;
+        const SolverReport report =
+            solver.solve(listed(bed.sites), bed.own, bed.contacts, forces, {1e-6, 1000});
+        EXPECT_TRUE(report.converged);
+        iterations += report.sweeps;
     }
+    EXPECT_LT(10 * iterations, sweeps);
 }
 
 TEST(NodeSolver, all_contacts_may_be_lost_and_come_back) {
@@ -112,16 +134,15 @@ TEST(NodeSolver, all_contacts_may_be_lost_and_come_back) {
 
 // A contact's place is taken by another at the other end of the wall; the factor still has the old one.
 TEST(NodeSolver, contacts_may_change_places_between_solutions) {
-    Bed bed(4, 60, 10), other(4, 60, 10);
-    other.random.seed(99);
+    Bed bed(4, 40, 10), other(4, 40, 10);
     std::swap(bed.sites.front(), bed.sites.back());
     std::swap(bed.own.front(), bed.own.back());
     LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
     NodeSolver solver(loaded.nodes());
-    Eigen::VectorXd forces = Eigen::VectorXd::Zero(180), expected;
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(120), expected;
     solver.solve(listed(other.sites), other.own, other.contacts, forces, {1e-10, 1000});
     EXPECT_TRUE(solver.solve(listed(bed.sites), bed.own, bed.contacts, forces, {1e-10, 1000}).converged);
-    solve_contacts(loaded.condense(bed.sites), bed.contacts, expected, {1e-12, 50000});
+    solve_contacts(loaded.condense(bed.sites), bed.contacts, expected, {1e-11, 50000});
     EXPECT_LT((forces - expected).norm(), 1e-8 * expected.norm());
 }
 
