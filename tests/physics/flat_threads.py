@@ -82,6 +82,18 @@ def kept_on() -> dict[str, Any]:
     return run(STEPS)
 
 
+def works_of_gravity() -> list[float]:
+    """Of the same pack, on YADE's own loop, twenty times [J]."""
+    works = []
+    for _ in range(20):
+        O.reset()
+        scenes.pack(scenes.sand())
+        scenes.engines(False, more=[scenes.ledger()])
+        O.run(20, True)
+        works.append(dict(O.energy.items())["gravWork"])
+    return works
+
+
 states = {
     "one step": one_step(),
     "dry bed": bed(),
@@ -89,5 +101,6 @@ states = {
     "changing bodies": changing_bodies(),
     "saved": saved_in_the_middle(),
     "kept on": kept_on(),
+    "works of gravity": works_of_gravity(),
 }
 Path(sys.argv[2]).write_bytes(pickle.dumps({"threads": O.numThreads, **states}))

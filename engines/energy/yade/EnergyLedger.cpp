@@ -99,6 +99,7 @@ void EnergyLedger::action() {
     if (first) {
         firstStep = scene->iter;
         lastTimeStep = scene->dt;
+        name_integrator_works();
     }
     const bool due = first || (scene->iter - firstStep) % iterPeriod == 0;
     book_works(due);
@@ -110,6 +111,16 @@ void EnergyLedger::action() {
 }
 
 /// The engines are looked at again only when they have changed.
+/// NewtonIntegrator names them when it first books them, from all its threads at once, and loses what another
+/// thread books meanwhile.
+void EnergyLedger::name_integrator_works() const {
+    int index = -1;
+    scene->energy->findId("gravWork", index, false, true);
+    index = -1;
+    if (integrator_->damping != 0)
+        scene->energy->findId("nonviscDamp", index, false, true);
+}
+
 void EnergyLedger::find_integrator() {
     const auto same = [](const shared_ptr<Engine>& engine, const Engine* checked) {
         return engine.get() == checked;

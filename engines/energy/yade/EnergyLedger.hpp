@@ -94,6 +94,7 @@ private:
 
     void forget();
     EarlierMotion earlier_motion(int id, const State& state) const;
+    void name_integrator_works() const;
     void find_integrator();
     void check_scene() const;
     template <class Add>
