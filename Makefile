@@ -48,8 +48,8 @@ bench-wall: package
 	cmake --build $(BUILD) --target closest_point_cost
 	$(BUILD)/benchmarks/closest_point_cost
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_cost.py
-	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_scene.py
-	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/wall_accuracy.py
+	PYTHONPATH=$(abspath $(BUILD))/python:benchmarks yade -j1 -n -x benchmarks/wall_scene.py
+	PYTHONPATH=$(abspath $(BUILD))/python:benchmarks yade -j1 -n -x benchmarks/wall_accuracy.py
 
 # How near the boundary of a bed may be, with a continuum outside and without: docs/physics/far_field.md. An hour or two.
 bench-far-field: package

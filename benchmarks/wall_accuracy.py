@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What accuracy of the deformable wall costs in time: degree, mesh, solver and interval, docs/physics/far_field.md.
 
-usage: PYTHONPATH=build/python yade -j1 -n -x benchmarks/wall_accuracy.py
+usage: PYTHONPATH=build/python:benchmarks yade -j1 -n -x benchmarks/wall_accuracy.py
 
 Degree, mesh and solver: Hertz's pressure over a circle on a block, and the strain energy that it stores beside that in
 a half-space, 2/5 of force times indentation. The block's fixed boundary, at 25 and at 50 contact radii, takes off a
@@ -21,6 +21,7 @@ import grainfall  # noqa: F401  the package lives inside YADE
 import matplotlib
 import numpy as np
 from grainfall import femlink
+from speed.report import fill
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -108,12 +109,7 @@ def main() -> None:
     (ROOT / "benchmarks/results/wall_accuracy.json").write_text(json.dumps(rows, indent=1) + "\n")
     seldom = json.loads((ROOT / "benchmarks/results/wall_scene.json").read_text())["interval"]
     draw(rows, seldom)
-    page = ROOT / "docs/physics/far_field.md"
-    before, rest = page.read_text().split("<!-- wall_accuracy -->\n")
-    after = rest.split("<!-- end of wall_accuracy -->\n", 1)[1]
-    page.write_text(
-        f"{before}<!-- wall_accuracy -->\n{table(rows)}\n<!-- end of wall_accuracy -->\n{after}"
-    )
+    fill(ROOT / "docs/physics/far_field.md", "wall_accuracy", table(rows))
 
 
 def table(rows: list[dict[str, Any]]) -> str:

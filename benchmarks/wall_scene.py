@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a deformable wall costs in a YADE scene, and what solving it seldom changes, docs/physics/far_field.md.
 
-usage: PYTHONPATH=build/python yade -j1 -n -x benchmarks/wall_scene.py
+usage: PYTHONPATH=build/python:benchmarks yade -j1 -n -x benchmarks/wall_scene.py
 
 A bed of quartz grains of 10 mm, settled by gravity on soil of 20 MPa, then stepped on: on YADE's rigid wall, on walls
 solved in every step and in every n-th. Each is timed in turn, three times, and the medians are taken.
@@ -18,6 +18,7 @@ from typing import Any
 import grainfall  # noqa: F401  registers the classes
 import numpy as np
 from grainfall import femlink
+from speed.report import fill
 from yade import (
     Bo1_Sphere_Aabb,
     Bo1_Wall_Aabb,
@@ -199,10 +200,7 @@ def main() -> None:
             ),
         ]
     )
-    page = ROOT / "docs/physics/far_field.md"
-    before, rest = page.read_text().split("<!-- wall_scene -->\n")
-    after = rest.split("<!-- end of wall_scene -->\n", 1)[1]
-    page.write_text(f"{before}<!-- wall_scene -->\n{text}\n<!-- end of wall_scene -->\n{after}")
+    fill(ROOT / "docs/physics/far_field.md", "wall_scene", text)
 
 
 main()

@@ -110,7 +110,6 @@ void EnergyLedger::action() {
         balance();
 }
 
-/// The engines are looked at again only when they have changed.
 /// NewtonIntegrator names them when it first books them, from all its threads at once, and loses what another
 /// thread books meanwhile.
 void EnergyLedger::name_integrator_works() const {
@@ -121,6 +120,7 @@ void EnergyLedger::name_integrator_works() const {
         scene->energy->findId("nonviscDamp", index, false, true);
 }
 
+/// The engines are looked at again only when they have changed.
 void EnergyLedger::find_integrator() {
     const auto same = [](const shared_ptr<Engine>& engine, const Engine* checked) {
         return engine.get() == checked;
