@@ -60,9 +60,10 @@ Eigen::Matrix3d contact_stiffness(const Contact& contact, const Eigen::Matrix3d&
 
 class NodeSolver {
 public:
-    explicit NodeSolver(LoadedNodes& nodes) : nodes_(nodes) {}
+    explicit NodeSolver(const LoadedNodes& nodes) : nodes_(nodes) {}
 
-    // `own`: D of each contact, m/N. `forces` as in solve_contacts. Not converged: `forces` are of no use.
+    // The nodes are those gathered for these sites. `own`: D of each contact, m/N. `forces` as in
+    // solve_contacts. Not converged: `forces` are of no use.
     template <class Contact>
     SolverReport solve(const Sites& sites, const std::vector<Eigen::Matrix3d>& own,
                        const std::vector<Contact>& contacts, Eigen::VectorXd& forces,
@@ -130,12 +131,6 @@ public:
         return report;
     }
 
-    // The next solution starts as the first would.
-    void forget() {
-        version_ = -1;
-        first_nodes_.clear();
-    }
-
 private:
     // Iterations until the factor is computed anew in each, until a new start, and in all.
     static constexpr int patience = 8, lost_after = 25, most_iterations = 100;
@@ -147,7 +142,6 @@ private:
     };
 
     void lay_out(const Sites& sites) {
-        nodes_.gather(sites);
         spans_.clear();
         slots_.clear();
         which_.clear();
@@ -264,7 +258,7 @@ private:
         is_stale_ = !report.converged || wasted_ * an_iteration > a_factor;
     }
 
-    LoadedNodes& nodes_;
+    const LoadedNodes& nodes_;
     std::vector<Span> spans_;
     std::vector<int> slots_, which_; // of each weight: place among the loaded nodes, place in the patch
     std::vector<double> weights_;

@@ -35,11 +35,8 @@ public:
 
     const Eigen::MatrixXd& condense(const Sites& sites) { return loaded_.condense(sites); }
 
-    // The next solution starts as the first would.
-    void forget() {
-        loaded_.forget();
-        on_nodes_.forget();
-    }
+    // The next solution starts as the first would: on_nodes_ sees that the nodes have been gathered anew.
+    void forget() { loaded_.forget(); }
 
 private:
     LoadedCompliance loaded_;

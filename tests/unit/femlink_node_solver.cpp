@@ -71,6 +71,7 @@ TEST(NodeSolver, finds_the_forces_that_contact_by_contact_finds_for_any_stiffnes
     for (const double ratio : ratios) {
         Bed bed(4, 20, ratio); // on 25 nodes
         LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+        loaded.nodes().gather(listed(bed.sites));
         NodeSolver solver(loaded.nodes());
         Eigen::VectorXd together = Eigen::VectorXd::Zero(60), one_by_one = together;
         EXPECT_TRUE(solver.solve(listed(bed.sites), bed.own, bed.contacts, together, {1e-10, 1000}).converged)
@@ -86,6 +87,7 @@ TEST(NodeSolver, with_any_number_of_contacts_each_answers_with_its_force) {
         for (const double ratio : ratios) {
             Bed bed(4, count, ratio);
             LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+            loaded.nodes().gather(listed(bed.sites));
             NodeSolver solver(loaded.nodes());
             Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * count);
             EXPECT_TRUE(
@@ -99,6 +101,7 @@ TEST(NodeSolver, with_any_number_of_contacts_each_answers_with_its_force) {
 TEST(NodeSolver, follows_moving_grains_in_a_tenth_of_the_sweeps_where_contacts_outnumber_nodes) {
     Bed bed(4, 100, 1e3);
     LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+    loaded.nodes().gather(listed(bed.sites));
     NodeSolver solver(loaded.nodes());
     const Eigen::MatrixXd compliance = loaded.condense(bed.sites);
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(300);
@@ -119,6 +122,7 @@ TEST(NodeSolver, follows_moving_grains_in_a_tenth_of_the_sweeps_where_contacts_o
 TEST(NodeSolver, all_contacts_may_be_lost_and_come_back) {
     Bed bed(4, 120, 1e3);
     LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+    loaded.nodes().gather(listed(bed.sites));
     NodeSolver solver(loaded.nodes());
     Eigen::VectorXd pressed = Eigen::VectorXd::Zero(360);
     solver.solve(listed(bed.sites), bed.own, bed.contacts, pressed, {1e-10, 1000});
@@ -138,6 +142,7 @@ TEST(NodeSolver, contacts_may_change_places_between_solutions) {
     std::swap(bed.sites.front(), bed.sites.back());
     std::swap(bed.own.front(), bed.own.back());
     LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+    loaded.nodes().gather(listed(bed.sites));
     NodeSolver solver(loaded.nodes());
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(120), expected;
     solver.solve(listed(other.sites), other.own, other.contacts, forces, {1e-10, 1000});
@@ -158,6 +163,7 @@ TEST(NodeSolver, contacts_on_fixed_nodes_meet_a_rigid_wall) {
     ASSERT_EQ(bed.own[0].norm(), 0);
     bed.contacts[0].free_overlap = depth;
     LoadedCompliance loaded(bed.wall.surface, bed.wall.compliance);
+    loaded.nodes().gather(listed(bed.sites));
     NodeSolver solver(loaded.nodes());
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(360);
     EXPECT_TRUE(solver.solve(listed(bed.sites), bed.own, bed.contacts, forces, {1e-10, 1000}).converged);
