@@ -49,11 +49,11 @@ struct Segment {
 
     std::size_t size() const { return states.size(); }
 
-    void add(const ContactState& state, const ContactConstants& constant, const Owner& owner,
+    void add(const ContactState& state, const ContactConstants& constant, Owner owner,
              const DashpotMemory* dashpot) {
         states.push_back(state);
         constants.push_back(constant);
-        owners.push_back(owner);
+        owners.push_back(std::move(owner));
         if (dashpot)
             dashpots.push_back(*dashpot);
     }

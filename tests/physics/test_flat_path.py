@@ -248,6 +248,54 @@ def test_switching_the_flat_path_off_and_on_in_a_run_changes_nothing():
     assert_equal((switched, scenes.state()), MANY_STEPS)
 
 
+def test_leaving_the_flat_path_while_nobody_looks_loses_nothing():
+    """An engine that is said to be blind turns the path off, at a time when only the arrays know what goes on."""
+    O.reset()
+    build(True)
+    O.engines = [
+        *O.engines,
+        w.PyRunner(command="loop.flat = False", iterPeriod=150, nDo=2, label="switch"),
+    ]
+    O.engines[2].blindEngines = ["switch"]
+    O.run(300, True)
+    assert O.engines[2].path == "general: flat = False"
+    switched = scenes.state()
+    O.reset()
+    build(False)
+    O.run(300, True)
+    assert_equal((switched, scenes.state()), MANY_STEPS)
+
+
+def test_contacts_that_came_and_went_unseen_leave_those_that_touch():
+    """The scene lists each overlapping pair once and no other; many more have met since the last look."""
+    O.reset()
+    build(True, restitution=1.0)
+    O.run(3000, True)
+    statistics = O.engines[2].statistics()
+    grains = [b for b in O.bodies if isinstance(b.shape, w.Sphere)]
+    places = np.array(
+        [b.state.pos - b.state.vel * O.dt for b in grains]
+    )  # where contacts were found
+    radii = np.array([b.shape.radius for b in grains])
+    distances = np.linalg.norm(places[:, None] - places[None], axis=2)
+    overlap = radii[:, None] + radii[None] - distances
+    overlapping = {(i, j) for i, j in np.argwhere(overlap >= 0).tolist() if i < j}
+    listed = [(i.id1, i.id2) for i in O.interactions]
+    of_grains = sorted(pair for pair in listed if max(pair) < len(grains))
+    assert len(listed) == O.interactions.countReal() == statistics["contacts"]
+    assert of_grains == sorted(overlapping)
+    assert statistics["born"] > 10 * len(listed) > 0
+    assert statistics["born"] - statistics["parted"] == len(listed)
+
+
+def test_a_contact_that_cannot_be_made_ends_the_run_with_one_sentence():
+    O.reset()
+    build(True)
+    O.engines[2].physDispatcher.functors = [w.Ip2_FrictMat_FrictMat_MindlinPhys()]
+    with pytest.raises(RuntimeError, match="does not make GrainPhys"):
+        O.step()
+
+
 def test_a_law_changed_under_way_takes_over_the_forces_alike_on_both_paths():
     """Contacts made by a law without memory of slip get one where they are, and keep what they were made with."""
 

@@ -4,7 +4,9 @@
 // Spheres and walls of GrainMat that meet by YADE's usual geometry are `flat`: their motion and contacts live
 // here, and YADE's State, forces and interactions are written when someone is about to look (publish). What
 // else is in the scene keeps YADE's own way, contact by contact (general pairs). Every contact has its
-// Interaction in the scene from the step in which it is made, only its numbers may be old.
+// Interaction from the step in which it is made, but the scene's container takes it in, and lets go of those
+// whose bodies have parted, only when contacts are published: what comes and goes between two looks never
+// passes through the container, and each thread makes the contacts of its own spheres.
 //
 //   take_over  YADE's objects -> arrays        after Python or a foreign engine may have changed them
 //   search     sorts the spheres in space, lists the pairs that are near each other
@@ -22,6 +24,7 @@
 #include <core/Body.hpp>
 #include <core/Scene.hpp>
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -37,11 +40,18 @@ public:
         int begin = 0, end = 0;
         int loaded_end = 0; // one past the last sphere that its contacts can push
         vector<FlatContacts> segments;
-        vector<grainfall::flat::Pair> near;
-        vector<grainfall::flat::Load> loads; // of all bodies
+        vector<grainfall::flat::Pair> near;        // of spheres
+        vector<grainfall::flat::Pair> near_planes; // a plane and a sphere
+        vector<grainfall::flat::Load> loads;       // of all bodies
         FlatBook book;
-        vector<vector<size_t>> opened; // by segment
-        vector<size_t> touching;       // of `near`
+        vector<vector<size_t>> opened;            // by segment
+        vector<size_t> touching, touching_planes; // of `near` and `near_planes`
+        vector<shared_ptr<Interaction>> parted;   // contacts that only the scene's container still holds
+        long born_now = 0, parted_now = 0;        // contacts made and lost in this step
+        // Two spheres as the geometry functor is to see them; their own State may be another thread's too.
+        shared_ptr<State> first_state = boost::make_shared<State>(),
+                          second_state = boost::make_shared<State>();
+        std::exception_ptr failure; // of this thread in this step
 
         FlatContacts& segment(int contact_class, bool on_planes);
     };
@@ -130,6 +140,12 @@ private:
         ContactOwner owner;
         grainfall::flat::DashpotMemory dashpot;
     };
+    struct Step {
+        const FlatTable& table;
+        Real length; // s
+        long number;
+        bool publish;
+    };
 
     grainfall::flat::Bodies bodies_;
     vector<Body*> yade_;   // by index
@@ -154,22 +170,24 @@ private:
     bool same_masks_ = true;
 
     void take_over_bodies(Scene& scene);
+    void find_functors();
     void take_over_contacts(Scene& scene, vector<Imported>& contacts);
-    Imported imported(Interaction& contact) const;
+    Imported imported(const shared_ptr<Interaction>& contact) const;
+    FlatContacts& add_contact(Domain& domain, Imported contact) const;
     void note_plane_radius(int first, const Interaction& contact);
     grainfall::flat::DashpotMemory recall_dashpots(const ContactOwner& owner) const;
     void read_planes();
-    vector<Imported> collect_contacts();
-    void place_contacts(const vector<Imported>& contacts);
+    void share_out(const vector<int>& place_of);
+    void take_contacts(Domain& domain, vector<FlatContacts>& former, const vector<int>& place_of) const;
     void set_anchors(Reach reach);
     void measure_radii();
     bool is_giant(int sphere) const {
         return bodies_.places[static_cast<size_t>(sphere)].radius > giant_radius_;
     }
-    void sort_spheres(const grainfall::flat::CellTable& cells, vector<Imported>& contacts);
+    vector<int> sort_spheres(const grainfall::flat::CellTable& cells);
     void list_near(Domain& domain, const grainfall::flat::CellTable& cells) const;
-    int owner_of(const grainfall::flat::ContactState& state) const {
-        return bodies_.is_plane(state.first) ? state.second : std::min(state.first, state.second);
+    int owner_of(int first, int second) const {
+        return bodies_.is_plane(first) ? second : std::min(first, second);
     }
     bool near_enough(int first, int second) const;
     Box box_of(const Body& body);
@@ -181,11 +199,14 @@ private:
     void start_booking(bool booking);
     void run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,
              size_t end) const;
-    void run_domain(Domain& domain, const FlatTable& table, Real time_step, bool publish);
-    void find_touching(Domain& domain);
-    void bear(Scene& scene, Domain& domain, const FlatTable& table, bool publish);
-    void bury(Scene& scene, Domain& domain);
-    bool make_contact(Scene& scene, int first, int second, Imported& made);
+    void run_domain(Domain& domain, const Step& step) const;
+    void find_touching(Domain& domain) const;
+    void bury(Domain& domain) const;
+    void bear(Domain& domain, const Step& step, vector<grainfall::flat::Pair>& near,
+              const vector<size_t>& touching);
+    bool make_contact(Domain& domain, const Step& step, grainfall::flat::Pair pair, Imported& made);
+    void list_contacts(Scene& scene);
+    void write_state(State& state, size_t index) const;
     void publish_state(size_t index) const;
     void publish_forces(Scene& scene);
     void settle_books();

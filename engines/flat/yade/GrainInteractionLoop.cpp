@@ -43,7 +43,9 @@ void GrainInteractionLoop::action() {
     if (stop_requested_.exchange(false))
         scene->stopAtIter = scene->iter + 1;
     take_the_time();
-    if (changed_ == Changed::anything || flat != wanted_flat_ || scene->bodies->body.size() != body_count_) {
+    // From the flat path another one is taken only when all stands with YADE again.
+    if (changed_ == Changed::anything || (flat != wanted_flat_ && !flat_step_) ||
+        scene->bodies->body.size() != body_count_) {
         flat_step_ = can_run_flat();
         wanted_flat_ = flat;
         if (flat_step_)
@@ -64,7 +66,11 @@ void GrainInteractionLoop::action() {
     const Real clock = PeriodicEngine::getClock();
     if (clock - last_shown_ > viewer_period) {
         last_shown_ = clock;
-        look_.after = true;
+        look_.after = look_.contacts = true;
+    }
+    if (flat != wanted_flat_) {
+        look_.after = look_.contacts = true;
+        look_.changes_after = Changed::anything;
     }
     if (grains_->must_search())
         grains_->search(reach());

@@ -9,6 +9,8 @@
 #include <core/InteractionContainer.hpp>
 #include <core/State.hpp>
 
+#include <utility>
+
 namespace yade {
 
 namespace gf = grainfall::flat;
@@ -18,17 +20,30 @@ void FlatGrains::contacts(Scene& scene, const FlatTables::Pair& tables, bool pub
     if (scene.trackEnergy != booking_)
         start_booking(scene.trackEnergy);
     read_planes();
-    const FlatTable& table = booking_ ? tables.booking : tables.plain;
+    const Step step{booking_ ? tables.booking : tables.plain, scene.dt, scene.iter, publish};
     const int threads = static_cast<int>(domains_.size());
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
     for (int d = 0; d < threads; ++d) {
-        run_domain(domains_[static_cast<size_t>(d)], table, scene.dt, publish);
-        find_touching(domains_[static_cast<size_t>(d)]);
+        Domain& domain = domains_[static_cast<size_t>(d)];
+        try {
+            run_domain(domain, step);
+            find_touching(domain);
+            bury(domain);
+            bear(domain, step, domain.near, domain.touching);
+        } catch (...) {
+            domain.failure = std::current_exception();
+        }
     }
     for (Domain& domain : domains_) {
-        bury(scene, domain);
-        bear(scene, domain, table, publish);
+        if (domain.failure)
+            std::rethrow_exception(std::exchange(domain.failure, nullptr));
+        // One after the other, for the first contact of a plane says which radius it has.
+        bear(domain, step, domain.near_planes, domain.touching_planes);
+        census.born += std::exchange(domain.born_now, 0);
+        census.parted += std::exchange(domain.parted_now, 0);
     }
+    if (publish)
+        list_contacts(scene);
     settle_books();
     load_planes(scene);
     for (const int i : touched_by_others_)
@@ -62,88 +77,93 @@ void FlatGrains::run(Domain& domain, size_t segment, const FlatTable& table, Fla
         run_wet_flat(table, booking_, loop, contacts, begin, end);
 }
 
-void FlatGrains::run_domain(Domain& domain, const FlatTable& table, Real time_step, bool publish) {
+void FlatGrains::run_domain(Domain& domain, const Step& step) const {
     domain.opened.resize(domain.segments.size());
     for (size_t s = 0; s < domain.segments.size(); ++s) {
         domain.opened[s].clear();
-        FlatLoop loop{bodies_, domain.loads.data(), time_step, publish, domain.book, domain.opened[s]};
-        run(domain, s, table, loop, 0, domain.segments[s].size());
+        FlatLoop loop{bodies_, domain.loads.data(), step.length, step.publish, domain.book, domain.opened[s]};
+        run(domain, s, step.table, loop, 0, domain.segments[s].size());
     }
 }
 
-void FlatGrains::find_touching(Domain& domain) {
+void FlatGrains::find_touching(Domain& domain) const {
     domain.touching.clear();
+    domain.touching_planes.clear();
     const gf::Place* places = bodies_.places.data();
     for (size_t i = 0; i < domain.near.size(); ++i) {
         const gf::Pair pair = domain.near[i];
-        bool touches;
-        if (bodies_.is_plane(pair.first)) {
-            touches = gf::gap(bodies_.plane(pair.first), places[pair.first], places[pair.second]) <= 0;
-        } else {
-            const Real sum = places[pair.first].radius + places[pair.second].radius;
-            touches = (places[pair.first].centre - places[pair.second].centre).squaredNorm() <= sum * sum;
-        }
-        if (touches)
+        const Real sum = places[pair.first].radius + places[pair.second].radius;
+        if ((places[pair.first].centre - places[pair.second].centre).squaredNorm() <= sum * sum)
             domain.touching.push_back(i);
+    }
+    for (size_t i = 0; i < domain.near_planes.size(); ++i) {
+        const gf::Pair pair = domain.near_planes[i];
+        if (gf::gap(bodies_.plane(pair.first), places[pair.first], places[pair.second]) <= 0)
+            domain.touching_planes.push_back(i);
     }
 }
 
-/// Contacts that have opened leave the scene; their pairs are looked after as near ones.
-void FlatGrains::bury(Scene& scene, Domain& domain) {
+/// Contacts that have opened; their pairs are looked after as near ones.
+void FlatGrains::bury(Domain& domain) const {
     for (size_t s = 0; s < domain.segments.size(); ++s) {
         FlatContacts& contacts = domain.segments[s];
+        domain.parted_now += static_cast<long>(domain.opened[s].size());
         for (size_t k = domain.opened[s].size(); k-- > 0;) {
             const size_t i = domain.opened[s][k];
-            int first = contacts.states[i].first, second = contacts.states[i].second;
-            if (!bodies_.is_plane(first) && first > second)
-                std::swap(first, second);
-            domain.near.push_back({first, second});
-            Interaction& contact = *contacts.owners[i].contact;
-            scene.interactions->erase(contact.getId1(), contact.getId2(), contact.linIx);
+            const gf::ContactState& state = contacts.states[i];
+            if (bodies_.is_plane(state.first))
+                domain.near_planes.push_back({state.first, state.second});
+            else
+                domain.near.push_back(
+                    {std::min(state.first, state.second), std::max(state.first, state.second)});
+            if (contacts.owners[i].in_scene)
+                domain.parted.push_back(std::move(contacts.owners[i].contact));
             contacts.remove(i);
-            ++census.parted;
         }
     }
 }
 
 /// Pairs that touch become contacts and act in this step already.
-void FlatGrains::bear(Scene& scene, Domain& domain, const FlatTable& table, bool publish) {
-    for (size_t k = domain.touching.size(); k-- > 0;) {
-        const size_t i = domain.touching[k];
+void FlatGrains::bear(Domain& domain, const Step& step, vector<gf::Pair>& near,
+                      const vector<size_t>& touching) {
+    for (size_t k = touching.size(); k-- > 0;) {
+        const size_t i = touching[k];
         Imported made;
-        if (!make_contact(scene, domain.near[i].first, domain.near[i].second, made))
+        if (!make_contact(domain, step, near[i], made))
             continue;
-        domain.near[i] = domain.near.back();
-        domain.near.pop_back();
-        ++census.born;
-        FlatContacts& contacts = domain.segment(made.contact_class, made.on_plane);
-        contacts.add(made.state, made.constants, made.owner, booking_ ? &made.dashpot : nullptr);
+        near[i] = near.back();
+        near.pop_back();
+        ++domain.born_now;
+        const FlatContacts& contacts = add_contact(domain, std::move(made));
         const auto segment = static_cast<size_t>(&contacts - domain.segments.data());
         domain.opened.resize(domain.segments.size());
         vector<size_t> opened;
-        FlatLoop loop{bodies_, domain.loads.data(), scene.dt, publish, domain.book, opened};
-        run(domain, segment, table, loop, contacts.size() - 1, contacts.size());
+        FlatLoop loop{bodies_, domain.loads.data(), step.length, step.publish, domain.book, opened};
+        run(domain, segment, step.table, loop, contacts.size() - 1, contacts.size());
     }
 }
 
 /// By the scene's own functors. False where they make none, as for a pair that touches in a rounding error.
-bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& made) {
-    const auto a = static_cast<size_t>(first), b = static_cast<size_t>(second);
-    Body* body1 = yade_[a];
-    Body* body2 = yade_[b];
-    publish_state(b);
-    if (!bodies_.is_plane(first)) {
-        publish_state(a);
-        if (body1->id > body2->id)
+bool FlatGrains::make_contact(Domain& domain, const Step& step, gf::Pair pair, Imported& made) {
+    Body* body1 = yade_[static_cast<size_t>(pair.first)];
+    Body* body2 = yade_[static_cast<size_t>(pair.second)];
+    State* state1 = body1->state.get();
+    State* state2 = domain.second_state.get();
+    write_state(*state2, static_cast<size_t>(pair.second));
+    if (!bodies_.is_plane(pair.first)) {
+        state1 = domain.first_state.get();
+        write_state(*state1, static_cast<size_t>(pair.first));
+        if (body1->id > body2->id) {
             std::swap(body1, body2);
+            std::swap(state1, state2);
+        }
     }
-    const auto geometry = functors.geometry(*body1->shape, *body2->shape).functor;
-    const auto physics = functors.physics(*body1->material, *body2->material);
+    const shared_ptr<IGeomFunctor>& geometry = functors.known_geometry(*body1->shape, *body2->shape);
     if (!geometry)
         return false;
-    const shared_ptr<Interaction> contact(new Interaction(body1->id, body2->id));
-    if (!geometry->go(body1->shape, body2->shape, *body1->state, *body2->state, Vector3r::Zero(), false,
-                      contact))
+    const shared_ptr<IPhysFunctor>& physics = functors.known_physics(*body1->material, *body2->material);
+    auto contact = shared_ptr<Interaction>(new Interaction(body1->id, body2->id));
+    if (!geometry->go(body1->shape, body2->shape, *state1, *state2, Vector3r::Zero(), false, contact))
         return false;
     physics->go(body1->material, body2->material, contact);
     if (!dynamic_cast<GrainPhys*>(contact->phys.get()))
@@ -151,11 +171,27 @@ bool FlatGrains::make_contact(Scene& scene, int first, int second, Imported& mad
                                                            "GrainInteractionLoop.flat = False");
     contact->functorCache.geom = geometry;
     contact->functorCache.phys = physics;
-    contact->iterMadeReal = contact->iterLastSeen = scene.iter;
-    scene.interactions->insert(contact);
-    made = imported(*contact);
-    note_plane_radius(first, *contact);
+    contact->iterMadeReal = contact->iterLastSeen = step.number;
+    made = imported(contact);
+    note_plane_radius(pair.first, *contact);
     return true;
+}
+
+/// The scene's container lets go of contacts that have parted and takes in those that are new.
+void FlatGrains::list_contacts(Scene& scene) {
+    InteractionContainer& container = *scene.interactions;
+    for (Domain& domain : domains_) {
+        for (const auto& contact : domain.parted)
+            container.erase(contact->getId1(), contact->getId2(), contact->linIx);
+        domain.parted.clear();
+    }
+    for (Domain& domain : domains_)
+        for (FlatContacts& segment : domain.segments)
+            for (ContactOwner& owner : segment.owners)
+                if (!owner.in_scene) {
+                    container.insert(owner.contact);
+                    owner.in_scene = true;
+                }
 }
 
 /// Deformable walls are solved for where their grains now are.

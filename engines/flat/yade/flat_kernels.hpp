@@ -17,11 +17,12 @@
 
 namespace yade {
 
-/// YADE's objects of a contact; the scene's container keeps them alive.
+/// YADE's objects of a contact.
 struct ContactOwner {
-    Interaction* contact;
+    shared_ptr<Interaction> contact;
     ScGeom* geom;
     GrainPhys* phys;
+    bool in_scene; // does the scene's container hold it?
 };
 using FlatContacts = grainfall::flat::Segment<ContactOwner>;
 

@@ -64,7 +64,10 @@ FlatGrains::move_domain(const Domain& domain, Scene& scene, const gf::StepRules&
 }
 
 void FlatGrains::publish_state(size_t at) const {
-    State& state = *yade_[at]->state;
+    write_state(*yade_[at]->state, at);
+}
+
+void FlatGrains::write_state(State& state, size_t at) const {
     state.pos = bodies_.places[at].centre;
     state.vel = bodies_.motions[at].velocity;
     state.angVel = bodies_.motions[at].spin;
@@ -90,7 +93,7 @@ size_t FlatGrains::contact_count() const {
 size_t FlatGrains::near_count() const {
     size_t count = 0;
     for (const Domain& domain : domains_)
-        count += domain.near.size();
+        count += domain.near.size() + domain.near_planes.size();
     return count;
 }
 

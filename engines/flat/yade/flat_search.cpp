@@ -40,7 +40,6 @@ FlatContacts& FlatGrains::Domain::segment(int contact_class, bool on_planes) {
 void FlatGrains::search(Reach reach) {
     ++census.searches;
     read_planes();
-    vector<Imported> contacts = collect_contacts();
     set_anchors(reach);
     Real farthest = 0;
     for (int i = 0; i < bodies_.spheres(); ++i) {
@@ -49,12 +48,12 @@ void FlatGrains::search(Reach reach) {
             farthest = std::max(farthest, bodies_.places[at].radius + anchors_[at].margin);
     }
     const gf::CellTable cells(bodies_.places, bodies_.spheres(), farthest);
-    sort_spheres(cells, contacts);
+    const vector<int> place_of = sort_spheres(cells);
     giants_.clear();
     for (int i = 0; i < bodies_.spheres(); ++i)
         if (is_giant(i))
             giants_.push_back(i);
-    place_contacts(contacts);
+    share_out(place_of);
 
     const int threads = static_cast<int>(domains_.size());
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
@@ -62,22 +61,6 @@ void FlatGrains::search(Reach reach) {
         list_near(domains_[static_cast<size_t>(d)], cells);
     list_general(cells, reach);
     moved_ = false;
-}
-
-vector<FlatGrains::Imported> FlatGrains::collect_contacts() {
-    vector<Imported> contacts;
-    for (Domain& domain : domains_) {
-        for (FlatContacts& segment : domain.segments) {
-            for (size_t i = 0; i < segment.size(); ++i) {
-                contacts.push_back({segment.contact_class, segment.on_planes, segment.states[i],
-                                    segment.constants[i], segment.owners[i],
-                                    booking_ ? segment.dashpots[i] : gf::DashpotMemory()});
-            }
-        }
-        domain.segments.clear();
-        domain.opened.clear();
-    }
-    return contacts;
 }
 
 /// A sphere at rest gets the skin, a moving one what it travels besides; no more than its radius, or a few
@@ -92,7 +75,8 @@ void FlatGrains::set_anchors(Reach reach) {
     }
 }
 
-void FlatGrains::sort_spheres(const gf::CellTable& cells, vector<Imported>& contacts) {
+/// Returns where each body stands now, by its place before.
+vector<int> FlatGrains::sort_spheres(const gf::CellTable& cells) {
     reorder(bodies_.places, cells.order);
     reorder(bodies_.motions, cells.order);
     reorder(bodies_.ids, cells.order);
@@ -106,42 +90,59 @@ void FlatGrains::sort_spheres(const gf::CellTable& cells, vector<Imported>& cont
         place_of[i < cells.order.size() ? static_cast<size_t>(cells.order[i]) : i] = static_cast<int>(i);
         index_of_[static_cast<size_t>(bodies_.ids[i])] = static_cast<int>(i);
     }
-    for (Imported& contact : contacts) {
-        contact.state.first = place_of[static_cast<size_t>(contact.state.first)];
-        contact.state.second = place_of[static_cast<size_t>(contact.state.second)];
-    }
+    return place_of;
 }
 
 /// Shares the spheres among the threads and the contacts with them, in the order of their lower spheres.
-void FlatGrains::place_contacts(const vector<Imported>& contacts) {
+void FlatGrains::share_out(const vector<int>& place_of) {
     const int count = bodies_.spheres(), threads = static_cast<int>(domains_.size());
+    vector<FlatContacts> former;
+    for (Domain& domain : domains_) {
+        std::move(domain.segments.begin(), domain.segments.end(), std::back_inserter(former));
+        domain.segments.clear();
+        domain.opened.clear();
+    }
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
     for (int d = 0; d < threads; ++d) {
         Domain& domain = domains_[static_cast<size_t>(d)];
         domain.begin = static_cast<int>(static_cast<long>(count) * d / threads);
         domain.end = static_cast<int>(static_cast<long>(count) * (d + 1) / threads);
         domain.loaded_end = domain.end;
         domain.loads.assign(yade_.size(), gf::Load());
-        domain.near.clear();
+        take_contacts(domain, former, place_of);
     }
-    vector<size_t> order(contacts.size());
-    for (size_t i = 0; i < order.size(); ++i)
-        order[i] = i;
-    const auto key = [&](size_t i) {
-        const gf::ContactState& state = contacts[i].state;
-        return std::make_pair(owner_of(state), state.first + state.second);
+}
+
+/// Of the former contacts those that are the domain's now.
+void FlatGrains::take_contacts(Domain& domain, vector<FlatContacts>& former,
+                               const vector<int>& place_of) const {
+    struct Found {
+        int owner, other;
+        size_t segment, index;
     };
-    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
-    size_t d = 0;
-    for (const size_t i : order) {
-        const Imported& contact = contacts[i];
-        while (owner_of(contact.state) >= domains_[d].end)
-            ++d;
-        domains_[d]
-            .segment(contact.contact_class, contact.on_plane)
-            .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
-        const int higher = std::max(contact.state.first, contact.state.second);
+    vector<Found> found;
+    const auto stands = [&](int before) { return place_of[static_cast<size_t>(before)]; };
+    for (size_t s = 0; s < former.size(); ++s)
+        for (size_t i = 0; i < former[s].size(); ++i) {
+            const int first = stands(former[s].states[i].first), second = stands(former[s].states[i].second);
+            const int owner = owner_of(first, second);
+            if (owner >= domain.begin && owner < domain.end)
+                found.push_back({owner, first + second - owner, s, i});
+        }
+    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+        return std::make_pair(a.owner, a.other) < std::make_pair(b.owner, b.other);
+    });
+    for (const Found& at : found) {
+        FlatContacts& from = former[at.segment];
+        gf::ContactState state = from.states[at.index];
+        state.first = stands(state.first);
+        state.second = stands(state.second);
+        domain.segment(from.contact_class, from.on_planes)
+            .add(state, from.constants[at.index], std::move(from.owners[at.index]),
+                 booking_ ? &from.dashpots[at.index] : nullptr);
+        const int higher = std::max(at.owner, at.other);
         if (!bodies_.is_plane(higher))
-            domains_[d].loaded_end = std::max(domains_[d].loaded_end, higher + 1);
+            domain.loaded_end = std::max(domain.loaded_end, higher + 1);
     }
 }
 
@@ -160,11 +161,13 @@ bool FlatGrains::near_enough(int first, int second) const {
 }
 
 void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
+    domain.near.clear();
+    domain.near_planes.clear();
     // Partners of each sphere that are in contact with it already.
     vector<vector<std::pair<int, int>>> partners(domain.segments.size());
     for (size_t s = 0; s < domain.segments.size(); ++s)
         for (const gf::ContactState& state : domain.segments[s].states) {
-            const int owner = owner_of(state);
+            const int owner = owner_of(state.first, state.second);
             partners[s].emplace_back(owner, state.first + state.second - owner);
         }
     vector<size_t> next(partners.size(), 0);
@@ -173,15 +176,16 @@ void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
         for (size_t s = 0; s < partners.size(); ++s)
             for (; next[s] < partners[s].size() && partners[s][next[s]].first == i; ++next[s])
                 touches[static_cast<size_t>(partners[s][next[s]].second)] = i;
-        const auto consider = [&](int first, int second, int other) {
-            if (touches[static_cast<size_t>(other)] != i && near_enough(first, second))
-                domain.near.push_back({first, second});
-        };
         for (int plane = bodies_.spheres(); plane < bodies_.count(); ++plane)
-            consider(plane, i, plane);
+            if (touches[static_cast<size_t>(plane)] != i && near_enough(plane, i))
+                domain.near_planes.push_back({plane, i});
+        const auto consider = [&](int other) {
+            if (touches[static_cast<size_t>(other)] != i && near_enough(i, other))
+                domain.near.push_back({i, other});
+        };
         if (is_giant(i)) {
             for (int j = i + 1; j < bodies_.spheres(); ++j)
-                consider(i, j, j);
+                consider(j);
             continue;
         }
         cells.grid.around(bodies_.places[static_cast<size_t>(i)].centre, [&](int from, int to) {
@@ -189,11 +193,11 @@ void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
             const int end = cells.starts[static_cast<size_t>(to)];
             for (int j = begin; j < end; ++j)
                 if (!is_giant(j))
-                    consider(i, j, j);
+                    consider(j);
         });
         for (const int giant : giants_)
             if (giant > i)
-                consider(i, giant, giant);
+                consider(giant);
     }
     for (const gf::Pair& pair : domain.near)
         domain.loaded_end = std::max(domain.loaded_end, pair.second + 1);

@@ -62,16 +62,15 @@ void FlatGrains::take_over(Scene& scene, int threads) {
     domains_.clear();
     domains_.resize(static_cast<size_t>(threads));
     take_over_bodies(scene);
+    find_functors();
     measure_radii();
     scene.interactions->eraseNonReal();
     vector<Imported> contacts;
     take_over_contacts(scene, contacts);
     // Not yet in space: the first domain holds all until the search.
     domains_[0].end = bodies_.spheres();
-    for (const Imported& contact : contacts)
-        domains_[0]
-            .segment(contact.contact_class, contact.on_plane)
-            .add(contact.state, contact.constants, contact.owner, booking_ ? &contact.dashpot : nullptr);
+    for (Imported& contact : contacts)
+        add_contact(domains_[0], std::move(contact));
     moved_ = true;
     forces_published_ = planes_known_ = false;
 }
@@ -115,6 +114,21 @@ void FlatGrains::take_over_bodies(Scene& scene) {
     }
 }
 
+/// The functors of all contacts that may come, so that threads need not look for them.
+void FlatGrains::find_functors() {
+    std::map<string, const Body*> of_shape, of_material;
+    for (const Body* body : yade_) {
+        of_shape.emplace(body->shape->getClassName(), body);
+        of_material.emplace(body->material->getClassName(), body);
+    }
+    if (const auto sphere = of_shape.find("Sphere"); sphere != of_shape.end())
+        for (const auto& [name, body] : of_shape)
+            functors.geometry(*body->shape, *sphere->second->shape);
+    for (const auto& [name1, body1] : of_material)
+        for (const auto& [name2, body2] : of_material)
+            functors.physics(*body1->material, *body2->material);
+}
+
 /// Few spheres that are much larger than the others would make the cells of all others too large: as giants
 /// they look for their neighbours by themselves.
 void FlatGrains::measure_radii() {
@@ -142,7 +156,8 @@ void FlatGrains::take_over_contacts(Scene& scene, vector<Imported>& contacts) {
                           dynamic_cast<GrainPhys*>(contact->phys.get()) &&
                           dynamic_cast<ScGeom*>(contact->geom.get());
         if (ours) {
-            contacts.push_back(imported(*contact));
+            contacts.push_back(imported(contact));
+            contacts.back().owner.in_scene = true;
             note_plane_radius(first, *contact);
         } else {
             general_.adopt(contact, scene, functors);
@@ -161,14 +176,14 @@ void FlatGrains::note_plane_radius(int first, const Interaction& contact) {
         bodies_.places[static_cast<size_t>(first)].radius = geom.refR1 / geom.refR2;
 }
 
-FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
-    auto& phys = static_cast<GrainPhys&>(*contact.phys);
-    auto& geom = static_cast<ScGeom&>(*contact.geom);
+FlatGrains::Imported FlatGrains::imported(const shared_ptr<Interaction>& contact) const {
+    auto& phys = static_cast<GrainPhys&>(*contact->phys);
+    auto& geom = static_cast<ScGeom&>(*contact->geom);
     Imported result;
     result.contact_class = phys.contactClass;
-    result.owner = {&contact, &geom, &phys};
-    result.state.first = index_of_[static_cast<size_t>(contact.getId1())];
-    result.state.second = index_of_[static_cast<size_t>(contact.getId2())];
+    result.owner = {contact, &geom, &phys, false};
+    result.state.first = index_of_[static_cast<size_t>(contact->getId1())];
+    result.state.second = index_of_[static_cast<size_t>(contact->getId2())];
     result.on_plane = bodies_.is_plane(result.state.first);
     result.state.normal = geom.normal;
     result.state.shear_force = phys.shearElastic;
@@ -181,6 +196,13 @@ FlatGrains::Imported FlatGrains::imported(Interaction& contact) const {
         result.constants.curve = &phys.effects()->curve();
     result.dashpot = recall_dashpots(result.owner);
     return result;
+}
+
+FlatContacts& FlatGrains::add_contact(Domain& domain, Imported contact) const {
+    FlatContacts& contacts = domain.segment(contact.contact_class, contact.on_plane);
+    contacts.add(contact.state, contact.constants, std::move(contact.owner),
+                 booking_ ? &contact.dashpot : nullptr);
+    return contacts;
 }
 
 /// Forces of the dashpots in the step that was published last: the forces applied less their elastic parts.

@@ -29,6 +29,13 @@ public:
     Found<IGeomFunctor> geometry(const Shape& first, const Shape& second);
     /// Throws std::runtime_error if there is none.
     shared_ptr<IPhysFunctor> physics(const Material& first, const Material& second);
+    /// Of pairs that were asked for before; may be asked by several threads at once.
+    const shared_ptr<IGeomFunctor>& known_geometry(const Shape& first, const Shape& second) const {
+        return found_geometries_.at({first.getClassName(), second.getClassName()}).functor;
+    }
+    const shared_ptr<IPhysFunctor>& known_physics(const Material& first, const Material& second) const {
+        return found_physics_.at({first.getClassName(), second.getClassName()});
+    }
     shared_ptr<LawFunctor> law(const IGeom& geometry, const IPhys& physics);
     shared_ptr<BoundFunctor> bound(const Shape& shape);
 
