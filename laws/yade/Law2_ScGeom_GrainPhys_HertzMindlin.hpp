@@ -37,10 +37,9 @@ public:
     /// One kernel for each contact class.
     using KernelTable = std::array<Kernel, ContactClass::count>;
 
-    /// The kernel that would serve this contact without its bridge.
-    Kernel dry_kernel(const GrainPhys& phys, bool booking) const {
-        const int dry = ContactClass(phys.contactClass).dry().index;
-        return (*kernels_[booking])[static_cast<std::size_t>(dry)];
+    /// The kernel of a class.
+    Kernel kernel(int contact_class, bool booking) const {
+        return (*kernels_[booking])[static_cast<std::size_t>(contact_class)];
     }
 
     /// Books energies [J] into O.energy; safe from all threads.

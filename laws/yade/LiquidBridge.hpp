@@ -43,15 +43,22 @@ public:
     grainfall::laws::bridge::BridgeMemory memory() const {
         return {formed, separation, attraction, viscousForce, work};
     }
+    /// What a kernel with this film and these books has changed.
+    template <class Film, class Energy>
     void remember(const grainfall::laws::bridge::BridgeMemory& state) {
         formed = state.formed;
         separation = state.separation;
         attraction = state.attraction;
-        viscousForce = state.viscous_force;
-        work = state.work;
+        if (Film::active)
+            viscousForce = state.viscous_force;
+        if (Energy::active || !state.formed)
+            work = state.work;
     }
-    /// N, on body 2 along the normal.
-    Real normal_force() const { return viscousForce - attraction; }
+    /// N, on body 2 along the normal; without the film's part where it is known to be none.
+    template <class Film = grainfall::laws::bridge::SqueezeFilm>
+    Real normal_force() const {
+        return Film::active ? viscousForce - attraction : -attraction;
+    }
 
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR(LiquidBridge, Serializable,

@@ -11,21 +11,35 @@ namespace {
 
 namespace gb = grainfall::laws::bridge;
 
+template <BridgeKind kind>
+using FormOf = std::conditional_t<kind == BridgeKind::willett || kind == BridgeKind::willett_viscous,
+                                  gb::WillettNumeric, gb::WillettClosed>;
+template <BridgeKind kind>
+using FilmOf =
+    std::conditional_t<kind == BridgeKind::willett_viscous || kind == BridgeKind::willett_closed_viscous,
+                       gb::SqueezeFilm, gb::NoFilm>;
+
 /// The dry contact while the bodies touch, and in the step in which they part, for its books.
+template <BridgeKind kind>
 void solid_contact(Law& law, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact,
                    bool booking) {
     auto& phys = static_cast<GrainEffectPhys&>(*physics);
     const bool was_touching = phys.kn > 0;
     if (static_cast<const ScGeom&>(*geometry).penetrationDepth < 0 && !was_touching)
         return;
-    if (!law.dry_kernel(phys, booking)(law, geometry, physics, contact))
+    // The dry classes come first.
+    const int dry_class =
+        phys.contactClass - ContactClass(FrictionForm::constant, DashpotForm::none, kind).index;
+    if (!law.kernel(dry_class, booking)(law, geometry, physics, contact))
         phys.part();
 }
 
-template <class Form, class Film, class Energy>
+template <BridgeKind kind, class Energy>
 bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics, Interaction* contact) {
+    using Form = FormOf<kind>;
+    using Film = FilmOf<kind>;
     Law& law = static_cast<Law&>(entry);
-    solid_contact(law, geometry, physics, contact, Energy::active);
+    solid_contact<kind>(law, geometry, physics, contact, Energy::active);
     const auto& geom = static_cast<const ScGeom&>(*geometry);
     auto& phys = static_cast<GrainEffectPhys&>(*physics);
     Scene& scene = *law.scene;
@@ -49,7 +63,7 @@ bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physi
     Energy book;
     const gb::BridgeState state = gb::LiquidBridge<Form, Film, Energy>::step(
         -geom.penetrationDepth, normal_velocity, scene.dt, bridge.parameters(), memory, book);
-    bridge.remember(memory);
+    bridge.remember<Film, Energy>(memory);
     if constexpr (Energy::active) {
         if (book.viscous != 0)
             law.book(0, book.viscous, 0, 0);
@@ -57,7 +71,7 @@ bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physi
             law.book_bridge(book.rupture);
     }
     if (state == gb::BridgeState::holding) {
-        kernels::apply_force(scene.forces, bridge.normal_force() * geom.normal, geom, id1, id2, state1,
+        kernels::apply_force(scene.forces, bridge.normal_force<Film>() * geom.normal, geom, id1, id2, state1,
                              state2, shift2);
     }
     return state != gb::BridgeState::ended;
@@ -66,9 +80,8 @@ bool step(LawEntry& entry, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physi
 template <class Energy>
 void put(Law::KernelTable& table) {
     const std::array<Law::Kernel, ContactClass::bridge_kinds> kernels{
-        nullptr, &step<gb::WillettNumeric, gb::NoFilm, Energy>, &step<gb::WillettClosed, gb::NoFilm, Energy>,
-        &step<gb::WillettNumeric, gb::SqueezeFilm, Energy>,
-        &step<gb::WillettClosed, gb::SqueezeFilm, Energy>};
+        nullptr, &step<BridgeKind::willett, Energy>, &step<BridgeKind::willett_closed, Energy>,
+        &step<BridgeKind::willett_viscous, Energy>, &step<BridgeKind::willett_closed_viscous, Energy>};
     for (int index = ContactClass::dry_count; index < ContactClass::count; ++index) {
         const auto place = static_cast<std::size_t>(index);
         table[place] = kernels[static_cast<std::size_t>(ContactClass(index).bridge())];

@@ -33,8 +33,8 @@ def energy_balance(summary: Mapping[str, Any], reference: str) -> list[str]:
     residual, limit = summary.get("energy_residual_relative"), summary["parameters"]["energy_limit"]
     if residual is None or residual <= limit:
         return []
-    deformable = summary["parameters"].get("far_field", "rigid") != "rigid"
-    remedy = "--far-field-interval or --dt-safety" if deformable else "--dt-safety"
+    interval = summary["parameters"].get("far_field_interval") or 1
+    remedy = "--far-field-interval or --dt-safety" if interval > 1 else "--dt-safety"
     return [
         f"WARNING: the energy balance is off by {residual:.1e} of {reference}, more than --energy-limit {limit:g}: "
         f"reduce {remedy}."

@@ -20,6 +20,7 @@ from grainfall.constants import GRAVITY
 from grainfall.drop import drop_test
 from grainfall.drop.parameters import TABLE
 from grainfall.drop.scene import bed_spec, build_scene, projectile_id
+from grainfall.run_notes import energy_balance
 
 # The bed of 660 grains is soft (2e7 Pa), and so is the continuum that goes on from it: 2e5 Pa.
 CONTINUUM = {"far_field": "quasi-static", "far_field_interval": 10}
@@ -163,6 +164,19 @@ def test_a_drop_in_a_continuum_states_it_and_balances(small_drop, wall_cache) ->
     shown = meshio.read(vtk / f"{max(moments)}-far-field.vtu")
     moved = np.linalg.norm(shown.point_data["displacement"], axis=1).max()
     assert 0 < moved <= wall["largest_displacement_m"] * 1.1
+
+
+@pytest.mark.parametrize(
+    "interval, remedy",
+    [(None, "--dt-safety"), (1, "--dt-safety"), (10, "--far-field-interval or --dt-safety")],
+)
+def test_a_bad_balance_asks_for_a_smaller_interval_only_where_there_is_one(
+    interval, remedy
+) -> None:
+    parameters = {"energy_limit": 1e-3, "far_field_interval": interval}
+    summary = {"energy_residual_relative": 2e-3, "parameters": parameters}
+    (line,) = energy_balance(summary, "the energy in play")
+    assert line.endswith(f"reduce {remedy}.")
 
 
 def test_a_drop_in_a_continuum_with_inertia_states_it_and_balances(small_drop, wall_cache) -> None:

@@ -76,14 +76,14 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
         const gb::BridgeState held = gb::LiquidBridge<Form, Film, Energy>::step(
             -at.touch.overlap, pair.velocity().dot(at.touch.normal), loop.time_step, bridge.parameters(),
             memory, book);
-        bridge.remember(memory);
+        bridge.remember<Film, Energy>(memory);
         if constexpr (Energy::active) {
             loop.book.viscous += book.viscous;
             loop.book.bridge += book.rupture;
         }
         state.normal = at.touch.normal;
         if (held == gb::BridgeState::holding)
-            apply(loop, contacts.on_planes, state, at, bridge.normal_force() * at.touch.normal,
+            apply(loop, contacts.on_planes, state, at, bridge.normal_force<Film>() * at.touch.normal,
                   Vector3r::Zero());
         else if (held == gb::BridgeState::ended)
             loop.opened.push_back(i);
