@@ -188,22 +188,40 @@ private:
     std::vector<ContactSite> kept_; // that matrix_ is of
 };
 
-// G_ii of one contact alone, m/N.
-inline Eigen::Matrix3d own_compliance(const Surface& surface, const Eigen::MatrixXd& compliance,
-                                      const ContactSite& site) {
+// B^T C B of one patch, m/N: how a load on it moves it.
+inline Eigen::Matrix3d patch_compliance(const Surface& surface, const Eigen::MatrixXd& compliance,
+                                        const ContactPatch& patch) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     if (compliance.size() == 0) // a wall with inertia: no force moves it at once
         return sum;
-    for (std::size_t a = 0; a < site.patch.nodes.size(); ++a) {
-        const int row = surface.loose[site.patch.nodes[a]];
-        for (std::size_t b = 0; row != Surface::fixed && b < site.patch.nodes.size(); ++b) {
-            const int column = surface.loose[site.patch.nodes[b]];
-            if (column != Surface::fixed)
-                sum += site.patch.block(a).transpose() * compliance.block<3, 3>(3 * row, 3 * column) *
-                       site.patch.block(b);
+    const std::size_t count = patch.nodes.size();
+    for (std::size_t b = 0; b < count; ++b) {
+        const int column = surface.loose[patch.nodes[b]];
+        if (column == Surface::fixed)
+            continue;
+        Eigen::Matrix3d seen = Eigen::Matrix3d::Zero(); // B^T C, the columns of node b
+        for (std::size_t a = 0; a < count; ++a) {
+            const int row = surface.loose[patch.nodes[a]];
+            if (row == Surface::fixed)
+                continue;
+            const auto block = compliance.block<3, 3>(3 * row, 3 * column);
+            if (patch.is_flat())
+                seen += patch.weights[a] * block;
+            else
+                seen.noalias() += patch.blocks[a].transpose() * block;
         }
+        if (patch.is_flat())
+            sum += patch.weights[b] * seen;
+        else
+            sum.noalias() += seen * patch.blocks[b];
     }
-    return site.axes.transpose() * sum * site.axes;
+    return sum;
+}
+
+// G_ii of one contact alone, m/N.
+inline Eigen::Matrix3d own_compliance(const Surface& surface, const Eigen::MatrixXd& compliance,
+                                      const ContactSite& site) {
+    return site.axes.transpose() * patch_compliance(surface, compliance, site.patch) * site.axes;
 }
 
 // Forces on the surface's nodes, N, one column a node, from the forces q on the grains.

@@ -9,13 +9,15 @@
 // which is Newton's step of r = 0: t is what the forces would change by if each contact alone made the wall
 // yield, x by how much more it yields, the rest follows from Woodbury's identity. The matrix has the size of
 // the nodes, not of the contacts, and K may be that of some steps ago: a contact that is soft or stiff beside
-// the wall (K D << 1 or >> 1) answers nearly alike whatever its K. So one factor serves many steps, and is
-// computed anew when iterations that a fresh one would have saved have cost as much as it does.
+// the wall (K D << 1 or >> 1) answers nearly alike whatever its K. So one factor serves many steps, while
+// Anderson's mixing (mixing.hpp) makes up for what has changed since. It is computed anew when a solution, or
+// what solutions took more than the first with it, has cost as much.
 #pragma once
 
 #include <femlink/core/compliance.hpp>
 #include <femlink/core/contact_solver.hpp>
 #include <femlink/core/dense.hpp>
+#include <femlink/core/mixing.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -73,9 +75,11 @@ public:
         if (rigidity_.rows() != nodes_.compliance().rows())
             return report; // C is singular
         const int count = static_cast<int>(sites.size());
+        const int patience = static_cast<int>(std::clamp(price_of_factor(), 1.0, 20.0));
         Eigen::VectorXd answers(3 * count), before;
         double off_before = std::numeric_limits<double>::infinity();
         int halvings = 0;
+        mixing_.forget();
         for (int since_factor = 0; report.sweeps <= std::min(options.max_sweeps, most_iterations);) {
             yield(forces);
             for (int i = 0; i < count; ++i)
@@ -94,29 +98,32 @@ public:
                 off_before = std::numeric_limits<double>::infinity();
                 since_factor = halvings = 0;
                 is_stale_ = true;
+                mixing_.forget();
                 continue;
             }
             if (!(off < 2 * off_before) && halvings < 5) {
                 ++halvings;
                 changes_ *= 0.5;
                 forces = before + changes_;
-                since_factor = 1; // contacts have opened or closed
+                mixing_.forget(); // contacts have opened or closed
+                since_factor = 1;
                 continue;
             }
             halvings = 0;
-            const bool is_slow = off > 0.5 * off_before || report.sweeps > patience;
-            if (is_stale_ || (is_slow && since_factor > 0)) {
+            if (is_stale_ || (report.sweeps > patience && since_factor > 0)) {
                 for (int i = 0; i < count; ++i)
                     stiffness_[i] =
                         contact_stiffness<Contact>(contacts[i], own[i], seen(i, yielded_),
                                                    forces.segment<3>(3 * i), answers.segment<3>(3 * i));
                 factorise();
+                mixing_.forget();
                 since_factor = 0;
             }
             ++since_factor;
             off_before = off;
             before = forces;
             find_changes(own, answers - forces);
+            mixing_.improve(forces, changes_);
             forces += changes_;
             double largest = 0;
             for (int i = 0; i < count; ++i)
@@ -132,8 +139,8 @@ public:
     }
 
 private:
-    // Iterations until the factor is computed anew in each, until a new start, and in all.
-    static constexpr int patience = 8, lost_after = 25, most_iterations = 100;
+    // Iterations until a new start, and in all.
+    static constexpr int lost_after = 40, most_iterations = 100;
 
     // A contact's part of the weights, as arrays.
     struct Span {
@@ -244,18 +251,20 @@ private:
             changes_.segment<3>(3 * i) -= stiffness_[i] * seen(static_cast<int>(i), load_);
     }
 
-    // Costs in multiplications of a matrix with a vector, as measured.
-    void keep_or_not(const SolverReport& report) {
+    // What a factor costs, in iterations, as measured.
+    double price_of_factor() const {
         const double size = static_cast<double>(rigidity_.rows()),
                      entries = static_cast<double>(slots_.size());
-        const double an_iteration = 2 * size * size + 40 * entries;
         double pairs = 0;
         for (const Span& span : spans_)
             pairs += static_cast<double>(span.end - span.begin) * (span.end - span.begin);
-        const double a_factor = size * size * size / 4 + 3 * pairs;
+        return (size * size * size / 4 + 3 * pairs) / (2 * size * size + 40 * entries);
+    }
+
+    void keep_or_not(const SolverReport& report) {
         fewest_ = std::min(fewest_, report.sweeps);
         wasted_ += report.sweeps - fewest_;
-        is_stale_ = !report.converged || wasted_ * an_iteration > a_factor;
+        is_stale_ = !report.converged || wasted_ > price_of_factor();
     }
 
     const LoadedNodes& nodes_;
@@ -266,6 +275,7 @@ private:
     std::vector<Eigen::Matrix3d> stiffness_;
     Eigen::MatrixXd rigidity_; // S
     dense::Factor factor_;
+    Mixing mixing_;
     Eigen::VectorXd load_, yielded_, changes_;
     long version_ = -1; // of the nodes that S is of
     bool is_stale_ = true;

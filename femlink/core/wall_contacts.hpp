@@ -13,8 +13,9 @@
 // A wall that grains were settled on (`settle_under`) lies where it is under their forces: of w, the datum,
 // what those forces do to the wall, is taken off.
 //
-// A contact's load stays where it is until the contact has moved by `drift` of the patch's radius, or its
-// normal has turned by more than `turn`: moving it means computing a row of G anew.
+// A contact's load stays where it is until the contact has moved by `drift` of the patch's radius, for moving
+// it means building its patch and its compliance anew, and points where it does until the normal has turned
+// by more than `turn`, which in a wall that bends is every few steps, but means only that its axes turn.
 #pragma once
 
 #include <femlink/core/law_contact.hpp>
@@ -42,8 +43,9 @@ struct WallTouch {
     // N, of the last solution for all, and its change from the one before: where the next starts.
     Eigen::Vector3d solved = Eigen::Vector3d::Zero(), trend = Eigen::Vector3d::Zero();
 
-    Eigen::Matrix3d own = Eigen::Matrix3d::Zero(); // m/N, compliance of the wall at the site, in its axes
-    Point drift = Point::Zero();                   // m, of `others` in a step between solutions for all
+    // m/N, compliance of the wall at the site, in space and in its axes.
+    Eigen::Matrix3d own_in_space = Eigen::Matrix3d::Zero(), own = Eigen::Matrix3d::Zero();
+    Point drift = Point::Zero(); // m, of `others` in a step between solutions for all
 
     // m, what the loads of the other contacts do to the wall here, in the site's axes.
     Eigen::Vector3d others() const { return site.axes.transpose() * seen + own * force; }
@@ -94,21 +96,27 @@ public:
     }
 
     // Moves the load to where the contact is, if it has left its place by more than `drift` of the patch's
-    // radius; true if it did.
+    // radius, and turns it as the contact has turned; true if it moved.
     bool follow(WallTouch& touch, double patch, double drift) const {
         const double allowed = drift * patch * face_size(surface(), unloaded_, touch.place.face);
         const bool stays = touch.anchor.face == touch.place.face &&
-                           (unloaded_point(touch.anchor) - unloaded_point(touch.place)).norm() <= allowed &&
-                           (touch.anchor.normal - touch.place.normal).norm() <= turn;
-        if (stays)
+                           (unloaded_point(touch.anchor) - unloaded_point(touch.place)).norm() <= allowed;
+        if (stays && (touch.anchor.normal - touch.place.normal).norm() <= turn)
             return false;
         const Eigen::Matrix3d axes = touch.site.axes;
-        const Point left = seen(touch.site);
-        touch.anchor = touch.place;
-        put_site(touch, patch);
+        const Point left = stays ? Point::Zero() : seen(touch.site);
+        if (stays) {
+            touch.anchor.normal = touch.place.normal;
+            put_axes(touch);
+        } else {
+            touch.anchor = touch.place;
+            put_site(touch, patch);
+        }
         const Eigen::Matrix3d turned = touch.site.axes.transpose() * axes;
         for (Eigen::Vector3d* force : {&touch.force, &touch.solved, &touch.trend})
             *force = turned * *force;
+        if (stays)
+            return false;
         // Another place on the wall, not a motion of the wall.
         const Point change = seen(touch.site) - left;
         touch.seen += change;
@@ -119,9 +127,9 @@ public:
     // Makes the site that belongs to the touch's anchor.
     void put_site(WallTouch& touch, double patch) const {
         const double radius = patch * face_size(surface(), unloaded_, touch.anchor.face);
-        touch.site = {contact_patch(surface(), unloaded_, touch.anchor.face, touch.anchor.at, radius),
-                      contact_axes(touch.anchor.normal)};
-        touch.own = own_compliance(surface(), model_->compliance, touch.site);
+        touch.site.patch = contact_patch(surface(), unloaded_, touch.anchor.face, touch.anchor.at, radius);
+        touch.own_in_space = patch_compliance(surface(), model_->compliance, touch.site.patch);
+        put_axes(touch);
     }
 
     // m, overlap with the unloaded wall of a sphere whose contact is `place`, its load at `site`.
@@ -210,6 +218,12 @@ public:
     Point seen(const ContactSite& site) const { return site.axes * seen_displacement(site, displacement_); }
 
 private:
+    static void put_axes(WallTouch& touch) {
+        const Eigen::Matrix3d axes = contact_axes(touch.anchor.normal);
+        touch.site.axes = axes;
+        touch.own = axes.transpose() * touch.own_in_space * axes;
+    }
+
     Point unloaded_point(const SurfaceContact& place) const { return point_of(place, unloaded_); }
 
     // Interpolates a field on the nodes.

@@ -41,8 +41,7 @@ const Law2_ScGeom_GrainPhys_HertzMindlin* Law2_ScGeom_GrainPhys_HertzMindlin::ac
 bool Law2_ScGeom_GrainPhys_HertzMindlin::go(shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& physics,
                                             Interaction* interaction) {
     const auto& phys = static_cast<const GrainPhys&>(*physics);
-    const Kernel kernel = (*kernels_[scene->trackEnergy])[phys.contactClass];
-    return kernel(*this, geometry, physics, interaction);
+    return kernel_of(phys.contactClass, scene->trackEnergy)(*this, geometry, physics, interaction);
 }
 
 void Law2_ScGeom_GrainPhys_HertzMindlin::validate() const {

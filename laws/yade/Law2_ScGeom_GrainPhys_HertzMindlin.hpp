@@ -38,7 +38,7 @@ public:
     using KernelTable = std::array<Kernel, ContactClass::count>;
 
     /// The kernel of a class.
-    Kernel kernel(int contact_class, bool booking) const {
+    Kernel kernel_of(int contact_class, bool booking) const {
         return (*kernels_[booking])[static_cast<std::size_t>(contact_class)];
     }
 

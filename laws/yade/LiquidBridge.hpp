@@ -43,8 +43,9 @@ public:
     grainfall::laws::bridge::BridgeMemory memory() const {
         return {formed, separation, attraction, viscousForce, work};
     }
-    /// What a kernel with this film and these books has changed.
-    template <class Film, class Energy>
+    /// What a kernel with this film and these books has changed; without them all of it.
+    template <class Film = grainfall::laws::bridge::SqueezeFilm,
+              class Energy = grainfall::laws::bridge::BridgeBook>
     void remember(const grainfall::laws::bridge::BridgeMemory& state) {
         formed = state.formed;
         separation = state.separation;

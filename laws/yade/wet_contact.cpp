@@ -30,7 +30,7 @@ void solid_contact(Law& law, shared_ptr<IGeom>& geometry, shared_ptr<IPhys>& phy
     // The dry classes come first.
     const int dry_class =
         phys.contactClass - ContactClass(FrictionForm::constant, DashpotForm::none, kind).index;
-    if (!law.kernel(dry_class, booking)(law, geometry, physics, contact))
+    if (!law.kernel_of(dry_class, booking)(law, geometry, physics, contact))
         phys.part();
 }
 
