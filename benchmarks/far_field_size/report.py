@@ -8,7 +8,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 
-from far_field_size.study import COMPARED_AT, CONTINUUM, NEAR, RIGID, WHOLE
+from far_field_size.study import COMPARED_AT, CONTINUUM, LARGER, NEAR, RIGID, WHOLE
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -49,7 +49,7 @@ def size_table(rows: list[Row], interval: int) -> list[str]:
         "settling, s | set-up, s |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
-    for half_width in (*NEAR, WHOLE):
+    for half_width in (*NEAR, WHOLE, *LARGER):
         for outside in (RIGID, CONTINUUM):
             found = of(rows, half_width, outside, interval)
             if not found:
@@ -122,7 +122,7 @@ def draw(rows: list[Row], interval: int) -> None:
                     zorder=1,
                     label="same packing" if half_width == NEAR[0] else None,
                 )
-        whole = [scale * r[name] for r in of(rows, WHOLE, RIGID, 0)]
+        whole = [scale * r[name] for r in of(rows, LARGER[-1], RIGID, 0)]
         if whole and name != "drop_s":
             axes.axhspan(
                 min(whole),
@@ -130,7 +130,7 @@ def draw(rows: list[Row], interval: int) -> None:
                 color="tab:orange",
                 alpha=0.25,
                 lw=0,
-                label="grains throughout",
+                label="largest box",
             )
         axes.set(xlabel="half-width of the grains, diameters", ylabel=label)
         axes.grid(True, lw=0.3)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Drops of the full-scale replica in near fields of several sizes: rigid walls, a continuum outside, grains throughout.
 
-The replica falls on 12 mm grains (Young's modulus 2e8 Pa) in a square box 0.15 m deep. A continuum reaches as far to
-the sides as the largest box, and as far below the floor.
+The replica falls on 12 mm grains (Young's modulus 2e8 Pa) in a square box 0.15 m deep. A continuum reaches out to 3.5
+diameters, and as far below the floor as to the sides.
 """
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 DIAMETER = 0.057  # m, of the replica
-#: Half-widths in diameters: of near fields with rigid walls and in a continuum, and of the bed that is grains
-#: throughout.
-NEAR, WHOLE = (1.25, 1.75, 2.5), 3.5
+#: Half-widths in diameters: of near fields with rigid walls and in a continuum, of the bed that has grains as far as
+#: the continuum reaches, and of larger ones.
+NEAR, WHOLE, LARGER = (1.25, 1.75, 2.5), 3.5, (5.0, 7.0)
 #: Steps between common solutions that are tried in the smallest near field.
 INTERVALS = (10, 30, 100)
 DEPTH, GRAIN, YOUNG, END = 0.15, 12e-3, 2e8, 0.05
@@ -70,7 +70,7 @@ def cases(seeds: int, interval: int) -> list[Case]:
         for half_width in NEAR:
             found.append(Case(half_width, RIGID, 0, seed))
             found.append(Case(half_width, CONTINUUM, interval, seed))
-        found.append(Case(WHOLE, RIGID, 0, seed))
+        found += [Case(half_width, RIGID, 0, seed) for half_width in (WHOLE, *LARGER)]
     found += [Case(NEAR[0], CONTINUUM, n, seed) for n in INTERVALS for seed in range(1, seeds + 1)]
     return list(dict.fromkeys(found))
 

@@ -24,6 +24,7 @@
 #include <femlink/core/wall_model.hpp>
 #include <femlink/core/wall_solver.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -34,10 +35,11 @@ namespace grainfall::femlink {
 struct WallTouch {
     int sphere = -1; // a number that the caller knows the sphere by; -1: this place is empty
     SurfaceContact place;
-    ContactSite site;                                        // where the load goes
-    SurfaceContact anchor;                                   // that `site` was made for
-    double free_overlap = 0;                                 // m, if no contact loaded the wall
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();         // N on the sphere, in the site's axes
+    ContactSite site;                                // where the load goes
+    SurfaceContact anchor;                           // that `site` was made for
+    double free_overlap = 0;                         // m, if no contact loaded the wall
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(); // N on the sphere, in the site's axes
+    double pull = 0; // N, towards the wall: of what joins the two besides the contact, as liquid does
     Point seen = Point::Zero(), seen_before = Point::Zero(); // m, of the wall, now and a step before
 
     // N, of the last solution for all, and its change from the one before: where the next starts.
@@ -55,6 +57,9 @@ struct WallTouch {
         solved = force;
         trend.setZero();
     }
+
+    // N on the sphere, in the site's axes: the contact's force and the pull.
+    Eigen::Vector3d whole_force() const { return force - pull * Eigen::Vector3d::UnitX(); }
 
     bool is_empty() const { return sphere < 0; }
     double overlap() const { return free_overlap + seen.dot(site.axes.col(0)); }
@@ -144,9 +149,10 @@ public:
         return radius - place.normal.dot(centre - here);
     }
 
-    // Solves all contacts; `contacts` in the order of `touches`, empty places included.
-    SolverReport solve(std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts,
+    // Solves all contacts; `contacts` in the order of `touches`, empty places included. Pulls are given.
+    SolverReport solve(std::vector<WallTouch>& touches, std::vector<LawContact> contacts,
                        const SolverOptions& options) {
+        draw_out(touches, contacts);
         auto [sites, forces] = loads(touches);
         std::vector<Eigen::Matrix3d> own;
         own.reserve(touches.size());
@@ -155,13 +161,14 @@ public:
             forces.segment<3>(3 * i) = touches[i].solved + touches[i].trend;
         }
         const SolverReport report = solver_.solve(sites, own, contacts, forces, options);
-        bear(sites, forces);
         for (std::size_t i = 0; i < touches.size(); ++i) {
             WallTouch& touch = touches[i];
             touch.force = forces.segment<3>(3 * i);
             touch.trend = touch.force - touch.solved;
             touch.solved = touch.force;
+            forces[3 * i] -= touch.pull;
         }
+        bear(sites, forces);
         return report;
     }
 
@@ -224,6 +231,22 @@ private:
         touch.own = axes.transpose() * touch.own_in_space * axes;
     }
 
+    // The contacts on the wall as the pulls leave it.
+    void draw_out(const std::vector<WallTouch>& touches, std::vector<LawContact>& contacts) const {
+        if (std::none_of(touches.begin(), touches.end(), [](const WallTouch& t) { return t.pull != 0; }))
+            return;
+        auto [sites, pulls] = loads(touches);
+        for (std::size_t i = 0; i < touches.size(); ++i)
+            pulls.segment<3>(3 * i) << -touches[i].pull, 0, 0;
+        const Positions drawn =
+            displacements(surface(), model_->compliance, femlink::nodal_forces(surface(), sites, pulls));
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            const Eigen::Vector3d there = seen_displacement(touches[i].site, drawn);
+            contacts[i].free_overlap += there[0];
+            contacts[i].shift += there.tail<2>();
+        }
+    }
+
     Point unloaded_point(const SurfaceContact& place) const { return point_of(place, unloaded_); }
 
     // Interpolates a field on the nodes.
@@ -239,7 +262,7 @@ private:
         sites.reserve(touches.size());
         for (std::size_t i = 0; i < touches.size(); ++i) {
             sites.push_back(&touches[i].site);
-            forces.segment<3>(3 * i) = touches[i].force;
+            forces.segment<3>(3 * i) = touches[i].whole_force();
         }
         return {std::move(sites), std::move(forces)};
     }

@@ -163,6 +163,7 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
         touch.seen_before = touch.seen;
     find_touches(pairs);
     make_new_contacts_real(lists);
+    read_pulls();
     solve(solvedStep < 0 || scene->iter - solvedStep >= interval);
     boundaryWork -= 0.5 * scene->dt * velocity.dot(force + force_before);
     preparedStep = scene->iter;

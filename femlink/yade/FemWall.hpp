@@ -138,8 +138,9 @@ private:
     using Places = std::pair<vector<Place>::const_iterator, vector<Place>::const_iterator>;
     vector<Place> places_; // sorted
     bool surface_moved_ = true;
-    bool restored_ = false; // interactions not known yet
-    FunctorLists lists_;    // on YADE's own loop
+    bool restored_ = false;    // interactions not known yet
+    bool has_bridges_ = false; // has a contact had liquid?
+    FunctorLists lists_;       // on YADE's own loop
     const Engine* listed_loop_ = nullptr;
     const Law2_ScGeom_GrainPhys_HertzMindlin* law_ = nullptr; // of this step; null with YADE's own laws
     const FunctorLists* checked_lists_ = nullptr;
@@ -167,11 +168,12 @@ private:
     grainfall::femlink::LawContact law_contact(size_t place, int steps = 1) const;
     void carry(Interaction& from, Interaction& to) const;
     void solve(bool together);
-    void solve_together(const vector<grainfall::femlink::LawContact>& laws,
+    void solve_together(vector<grainfall::femlink::LawContact> laws,
                         const grainfall::femlink::SolverOptions& options);
     void move_continuum();
     void see_continuum();
     void read_law_forces();
+    void read_pulls();
     void exchange(const vector<grainfall::femlink::LawContact>& laws);
     void settle();
     void write_faces();

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace yade {
 
@@ -108,7 +109,7 @@ void FemWall::solve(bool together) {
     const fl::SolverOptions options{tolerance, maxSweeps};
     if (together) {
         if (coupling == "implicit")
-            solve_together(laws, options);
+            solve_together(std::move(laws), options);
         else
             exchange(laws);
         solvedStep = scene->iter;
@@ -126,15 +127,15 @@ void FemWall::solve(bool together) {
             wall_->arrive(touch);
         if (coupling == "implicit")
             wall_->solve_alone(touch, together ? law_contact(i) : laws[i], options);
-        const Vector3r push = touch.site.axes * touch.force;
+        const Vector3r push = touch.site.axes * touch.whole_force();
         partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
         force -= push;
         storedEnergy -= 0.5 * push.dot(touch.seen);
     }
 }
 
-void FemWall::solve_together(const vector<fl::LawContact>& laws, const fl::SolverOptions& options) {
-    const fl::SolverReport report = wall_->solve(touches_, laws, options);
+void FemWall::solve_together(vector<fl::LawContact> laws, const fl::SolverOptions& options) {
+    const fl::SolverReport report = wall_->solve(touches_, std::move(laws), options);
     sweeps = report.sweeps;
     lastChange = report.change;
     if (report.converged)
@@ -163,8 +164,20 @@ void FemWall::exchange(const vector<fl::LawContact>& laws) {
                 ", and exchanging forces step by step diverges from 1 on, whatever the time step");
 }
 
+/// Those of the last step: a bridge's attraction changes little in one. Its film's force follows the velocity
+/// at once; that is not passed on to the wall.
+void FemWall::read_pulls() {
+    for (size_t i = 0; has_bridges_ && i < touches_.size(); ++i) {
+        const shared_ptr<Interaction>& contact = partners_[i].contact;
+        const auto* phys = contact ? dynamic_cast<const GrainPhys*>(contact->phys.get()) : nullptr;
+        const LiquidBridge* bridge = phys ? bridge_of(*phys) : nullptr;
+        touches_[i].pull = bridge && bridge->formed ? bridge->attraction : 0;
+    }
+}
+
 /// Those of the last step into the touches.
 void FemWall::read_law_forces() {
+    read_pulls();
     for (size_t i = 0; i < touches_.size(); ++i) {
         if (touches_[i].is_empty())
             continue;

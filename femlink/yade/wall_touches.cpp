@@ -91,8 +91,10 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         if (place != nowhere)
             held.push_back(face);
         const auto* phys = dynamic_cast<const GrainPhys*>(pair->contact->phys.get());
-        if (phys && bridge_of(*phys))
+        if (phys && bridge_of(*phys)) {
             reach = std::max(reach, 1.5 * radius);
+            has_bridges_ = true;
+        }
     }
     const auto pair_of = [&](int face) {
         return std::find_if(begin, end, [&](const FacePair& pair) { return face_of(pair.face->id) == face; });

@@ -74,7 +74,7 @@ void FemWall::see_continuum() {
             continue;
         touch.seen = wall_->seen(touch.site);
         partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
-        force -= touch.site.axes * touch.force;
+        force -= touch.site.axes * touch.whole_force();
     }
     solvedStep = scene->iter;
     see_surface();

@@ -2,6 +2,8 @@
 """Single grains on a deformable wall in a YADE scene: impact, sliding, rolling, corners (MR-2629, Eq 22-27)."""
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from femlink_walls import femlink
@@ -355,3 +357,46 @@ def test_ten_grains_of_their_own_material_get_their_own_stiffness() -> None:
     assert by_sphere == pytest.approx(law, rel=1e-6)  # the solver's tolerance
     forces = [law[b.id] for b in O.bodies if b.dynamic]
     assert forces == sorted(forces) and forces[-1] > 1000 * forces[0]
+
+
+def moist(path: str, young: float, speed: float) -> tuple[Any, Any]:
+    """A grain with water of its own about to hit the dry block."""
+    wall, grain = impact(young, path, speed=speed)
+    O.materials[0].gravimetricMoisture = 0.01
+    return wall, grain
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_a_liquid_bridge_pulls_the_wall_as_it_pulls_the_grain(path: str) -> None:
+    wall, grain = moist(path, 1e6, 0.01)
+    grain.state.blockedDOFs = "xyzXYZ"  # it goes on as it is told
+    O.run(20, True)
+    grain.state.vel = (0, 0, 10)
+    O.run(100, True)  # 0.2 mm up
+    grain.state.vel = (0, 0, 0)
+    O.run(4, True)
+    (contact,) = (i for i in O.interactions if i.isReal)
+    pull = contact.phys.bridge.attraction
+    assert (
+        pull > 1e-3 and contact.phys.normalForce == (0, 0, 0) and contact.geom.penetrationDepth < 0
+    )
+    # The wall takes the pull of the step before: at rest that is the present one.
+    on_nodes = sum(array(force) for force in wall.nodeForces())
+    np.testing.assert_allclose(array(wall.force), (0, 0, pull), rtol=1e-9, atol=1e-9 * pull)
+    np.testing.assert_allclose(on_nodes, array(wall.force), rtol=0, atol=1e-12 * pull)
+    # But for the small angle by which a site's axes may lag behind the contact.
+    np.testing.assert_allclose(-array(O.forces.f(grain.id)), on_nodes, rtol=0, atol=1e-4 * pull)
+    # It comes towards the grain, by the compliance of a disc and of the springs around it.
+    highest = max(u[2] for u in wall.nodeDisplacements())
+    assert 0.5 < highest / (pull * femlink.disc_compliance(1e6, 0.3, 1.25 * 0.01)) < 2
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_a_moist_impact_on_a_soft_wall_loses_what_its_bridge_takes(path: str) -> None:
+    wall, grain = moist(path, 2e7, 1.0)
+    rebound(wall, grain)
+    energies = ledger.table()  # noqa: F821
+    assert energies["farField"] == 0
+    lost = 0.5 * grain.state.mass * (1 - grain.state.vel[2] ** 2)
+    assert lost == pytest.approx(O.energy["grainBridge"], rel=0.05)
+    assert ledger.largestResidual < 3e-4 * ledger.energyInPlay  # noqa: F821

@@ -139,4 +139,58 @@ TEST(BetweenSolutions, a_load_that_follows_its_contact_makes_no_velocity) {
     EXPECT_NEAR((touch.seen - wall.seen(touch.site)).norm(), 0, 1e-18);
 }
 
+// A contact that only turns takes its load along: the patch stays, the axes turn, and the wall gives way to
+// the load as a new patch's at that place would.
+TEST(BetweenSolutions, a_load_that_turns_with_its_contact_stays_on_its_patch) {
+    QuasiStaticWall wall = made_wall();
+    Row row(wall, overlap);
+    wall.solve(row.touches, row.contacts(), exactly);
+    WallTouch touch = row.touches[1];
+    touch.force = {2, 0.3, -0.1};
+    const Point push = touch.site.axes * touch.force;
+    const ContactPatch before = touch.site.patch;
+    touch.place.normal = Point(0.01, 0.02, 1).normalized();
+    EXPECT_FALSE(wall.follow(touch, patch, 0.005));
+    EXPECT_EQ(touch.site.patch.nodes, before.nodes);
+    EXPECT_EQ(touch.site.patch.weights, before.weights);
+    EXPECT_NEAR((touch.site.axes.col(0) - touch.place.normal).norm(), 0, 1e-15);
+    // Until the next solution the force is what it was, in other axes.
+    EXPECT_NEAR((touch.site.axes * touch.force - push).norm(), 0, 1e-14 * push.norm());
+    WallTouch anew = touch;
+    wall.put_site(anew, patch);
+    EXPECT_EQ(anew.own, touch.own);
+    EXPECT_EQ(anew.site.axes, touch.site.axes);
+}
+
+// Liquid that holds a sphere which no longer touches.
+TEST(DrawnWall, a_pull_alone_draws_the_wall_out_by_its_compliance) {
+    QuasiStaticWall wall = made_wall();
+    Row row(wall, overlap);
+    for (Point& centre : row.centres)
+        centre[2] += 2 * overlap;
+    row.look(wall);
+    constexpr double pull = 1e-3; // N
+    row.touches[3].pull = pull;
+    wall.solve(row.touches, row.contacts(), exactly);
+    for (const WallTouch& touch : row.touches)
+        EXPECT_EQ(touch.force, Point::Zero());
+    EXPECT_NEAR(wall.seen(row.touches[3].site)[2] / (row.touches[3].own(0, 0) * pull), 1, 1e-12);
+    EXPECT_NEAR(wall.nodal_forces().row(2).sum() / pull, 1, 1e-12);
+}
+
+TEST(DrawnWall, contacts_press_it_with_what_their_overlap_with_the_drawn_wall_asks_for) {
+    QuasiStaticWall wall = made_wall();
+    Row row(wall, overlap);
+    double total = 0;
+    for (WallTouch& touch : row.touches)
+        touch.pull = 5 * (touch.sphere + 1); // N, as much as the contacts
+    wall.solve(row.touches, row.contacts(), exactly);
+    for (WallTouch& touch : row.touches) {
+        touch.seen = wall.seen(touch.site);
+        EXPECT_NEAR(touch.force[0] / (coefficient * std::pow(touch.overlap(), 1.5)), 1, 1e-9);
+        total += touch.pull - touch.force[0];
+    }
+    EXPECT_NEAR(wall.nodal_forces().row(2).sum(), total, 1e-12 * std::abs(total));
+}
+
 } // namespace

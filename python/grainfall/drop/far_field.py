@@ -26,7 +26,8 @@ from grainfall.beds import Bed
 
 #: Growth of the cells from one to the next, outwards: docs/physics/far_field.md.
 RATIO = 1.3
-#: Forces on the continuum are solved for to this share of the largest. From 1e-4 to 1e-8 the energy residual is the same.
+#: Forces on the continuum are solved for to this share of the largest; the energy residual is the same from 1e-4 to
+#: 1e-8.
 TOLERANCE = 1e-5
 #: Rigid screens above the continuum hold grains that fly [m].
 SCREEN_HEIGHT, SCREEN_THICKNESS = 3.0, 0.1
