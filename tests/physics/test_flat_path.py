@@ -371,6 +371,24 @@ def test_pausing_a_run_in_the_background_leaves_everything_published():
     assert total == pytest.approx(seen["force"], abs=1e-12 * np.abs(seen["force"]).max())
 
 
+def test_what_a_viewer_is_shown_by_the_clock_changes_a_run_by_no_bit():
+    """The same run at its own pace, and one that waits long enough to be shown in between."""
+    states = []
+    for pause in (0.0, 0.6):
+        O.reset()
+        build(True)
+        O.engines = [
+            *O.engines,
+            w.PyRunner(
+                command=f"import time; time.sleep({pause})", iterPeriod=120, nDo=4, label="waiter"
+            ),
+        ]
+        O.engines[2].blindEngines = ["waiter"]
+        O.run(500, True)
+        states.append(scenes.state())
+    assert {k: v for k, v in differences(*states).items() if v != 0} == {}
+
+
 def test_far_flung_grains_do_not_hide_neighbours():
     """Two grains meet 10 km away from the pack, beyond the cells that cover it."""
     O.reset()

@@ -77,6 +77,8 @@ public:
     void search(Reach reach);
     /// Contact forces of this step. `publish`: YADE's interactions and forces are written too.
     void contacts(Scene& scene, const FlatTables::Pair& tables, bool publish);
+    /// The scene's container lets go of contacts that have parted and takes in those that are new.
+    void list_contacts(Scene& scene);
     /// Motion of the spheres; `scene.forces` are in sync. Returns the highest speed squared [m2/s2].
     Real move(Scene& scene, const grainfall::flat::StepRules& rules, bool keep_velocities);
     /// Position, velocity, orientation and spin of the spheres into their State.
@@ -205,7 +207,6 @@ private:
     void bear(Domain& domain, const Step& step, vector<grainfall::flat::Pair>& near,
               const vector<size_t>& touching);
     bool make_contact(Domain& domain, const Step& step, grainfall::flat::Pair pair, Imported& made);
-    void list_contacts(Scene& scene);
     void write_state(State& state, size_t index) const;
     void publish_state(size_t index) const;
     void publish_forces(Scene& scene);

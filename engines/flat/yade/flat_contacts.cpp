@@ -177,7 +177,6 @@ bool FlatGrains::make_contact(Domain& domain, const Step& step, gf::Pair pair, I
     return true;
 }
 
-/// The scene's container lets go of contacts that have parted and takes in those that are new.
 void FlatGrains::list_contacts(Scene& scene) {
     InteractionContainer& container = *scene.interactions;
     for (Domain& domain : domains_) {
