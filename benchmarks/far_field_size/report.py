@@ -122,11 +122,11 @@ def draw(rows: list[Row], interval: int) -> None:
                     zorder=1,
                     label="same packing" if half_width == NEAR[0] else None,
                 )
-        whole = [scale * r[name] for r in of(rows, LARGER[-1], RIGID, 0)]
-        if whole and name != "drop_s":
+        largest = [scale * r[name] for r in of(rows, LARGER[-1], RIGID, 0)]
+        if largest and name != "drop_s":
             axes.axhspan(
-                min(whole),
-                max(whole),
+                min(largest),
+                max(largest),
                 color="tab:orange",
                 alpha=0.25,
                 lw=0,
