@@ -178,9 +178,10 @@ def test_the_confinement_asked_for_is_reached_from_none_to_the_highest(tiny_test
         # has changed by up to 1e-3 since it was measured for its membrane, which is 2 % of that strain.
         membrane = 1.4e6 * (0.3 / 18) * (1 / 0.95 - 1)
         assert summary["preload"]["membrane_pressure_Pa"] == pytest.approx(membrane, rel=0.05)
-    # With forces 1e3 times smaller the cycles are as large as before: contacts open and close. Packings of 70 grains
-    # differ from 4e-4 to 2e-3, on both paths alike.
-    assert summary["energy_residual_relative"] < 3e-3
+    # With forces 1e3 times smaller the cycles are as large as before: contacts open and close. At 100 Pa packings of
+    # 70 grains differ from 4e-4 to 2e-3, on both paths alike.
+    limit = 3e-3 if changes["confinement"] == 100 else 1e-3
+    assert summary["energy_residual_relative"] < limit
 
 
 def test_bridges_hold_a_moist_sample_whose_sides_are_free(tiny_test):
