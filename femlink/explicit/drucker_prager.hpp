@@ -11,6 +11,7 @@
 #pragma once
 
 #include <femlink/explicit/hyperelastic.hpp>
+#include <femlink/explicit/stress_at_rest.hpp>
 
 namespace grainfall::femlink {
 
@@ -18,13 +19,20 @@ class DruckerPrager {
 public:
     static constexpr int history = 3; // equivalent plastic strain; plastic work, Pa; its rate over the flow
                                       // while the point flows, else 0, Pa
+    static constexpr bool knows_stress_at_rest = true;
 
     explicit DruckerPrager(const SolidMaterial& m)
         : mu_(m.elastic.mu()), bulk_(m.elastic.lambda() + 2 * m.elastic.mu() / 3),
           eta_(slope(m.friction_angle)), flow_eta_(slope(m.dilatancy)),
-          strength_(6 * std::cos(m.friction_angle) / denominator(m.friction_angle) * m.cohesion) {}
+          strength_(6 * std::cos(m.friction_angle) / denominator(m.friction_angle) * m.cohesion),
+          rest_ratio_(earth_pressure_at_rest(m.friction_angle)) {}
 
     static Volume volume(double ratio) { return {ratio}; }
+    // b that goes with the stress of rest there.
+    Symmetric b_at_rest(const StressAtRest& rest, const Point& at) const {
+        const Symmetric tau = rest.stress(at, rest_ratio_);
+        return exponential(plus_identity((1 / mu_) * tau.deviator(), 2 * tau.trace() / (9 * bulk_)));
+    }
 
     Symmetric stress(Symmetric& b, const Volume&, double* at) const {
         const Symmetric strain = half_logarithm(b);
@@ -71,7 +79,7 @@ private:
     static double denominator(double angle) { return std::sqrt(3.0) * (3 - std::sin(angle)); }
     static double slope(double angle) { return 6 * std::sin(angle) / denominator(angle); }
 
-    double mu_, bulk_, eta_, flow_eta_, strength_;
+    double mu_, bulk_, eta_, flow_eta_, strength_, rest_ratio_;
 };
 
 } // namespace grainfall::femlink

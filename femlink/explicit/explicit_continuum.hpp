@@ -18,12 +18,14 @@ struct ExplicitOptions {
     double hourglass = 1; // of the one-point element: share of the shear stiffness
     OuterBoundary outer = OuterBoundary::fixed;
     double safety = 0.9;                  // longest substep over the critical one
+    Point gravity = Point::Zero();        // m/s^2; only soil with friction asks for it
     std::vector<std::array<int, 2>> held; // node and axis, held besides the fixed boundary
 };
 
 // J
 struct ExplicitEnergies {
-    double kinetic = 0, elastic = 0, hourglass = 0, plastic = 0;
+    double kinetic = 0, hourglass = 0, plastic = 0;
+    double elastic = 0; // from that at rest, the loads at rest included: soil under stress may give some back
     double absorbed = 0; // by the dashpots of the outer boundary
     double ground = 0;   // in its springs
 
@@ -45,7 +47,9 @@ public:
         laws::require_positive("safety", options.safety);
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
             rest_.col(static_cast<Eigen::Index>(v)) = mesh.vertices[v];
-        blocks_ = cell_blocks(mesh, materials, options.element, options.hourglass);
+        for (int axis = 0; axis < 3; ++axis)
+            laws::require_finite("gravity[" + std::to_string(axis) + "]", options.gravity[axis]);
+        blocks_ = cell_blocks(mesh, materials, options.element, options.hourglass, options.gravity);
         find_masses();
         hold(mesh);
         find_surface(mesh);
@@ -56,6 +60,8 @@ public:
         surface_force_ = surface_start_ = Positions::Zero(3, surface_.node_count());
         surface_displacement_ = surface_force_;
         find_forces();
+        if (!options.gravity.isZero(0))
+            balance();
         limit_ = critical_step();
     }
 
@@ -127,6 +133,8 @@ public:
             out.plastic += part.plastic;
             out.hourglass += part.hourglass;
         }
+        if (rest_force_.size() != 0)
+            out.elastic -= rest_energy_ + rest_force_.cwiseProduct(displacement_).sum();
         out.absorbed = absorbed_;
         for (const GroundNode& at : ground_) {
             const Point before = velocity_.col(at.node);
@@ -247,6 +255,16 @@ private:
             block->add_forces(position_.data(), force_.data());
         for (const GroundNode& at : ground_)
             force_.col(at.node) -= at.spring * displacement_.col(at.node);
+        if (rest_force_.size() != 0)
+            force_ += rest_force_;
+    }
+
+    // Weight, and whatever else holds the soil at rest, go on acting as they do there.
+    void balance() {
+        for (const auto& block : blocks_)
+            rest_energy_ += block->energies(position_.data()).elastic;
+        rest_force_ = -force_;
+        force_.setZero();
     }
 
     // A load acts from the middle of the last substep on: central differences kick with it over both halves.
@@ -367,6 +385,8 @@ private:
 
     Positions position_, displacement_, velocity_; // m, m, m/s (half a substep behind)
     Positions force_, load_;                       // N: internal and of the ground; of the grains
+    Positions rest_force_;                         // N, against the stress at rest; empty: there is none
+    double rest_energy_ = 0;                       // J, elastic, at rest
     Positions surface_force_, surface_start_, surface_displacement_;
     double time_ = 0, last_step_ = 0, limit_ = 0;                               // s
     double absorbed_ = 0, surface_work_ = 0, support_work_ = 0, step_work_ = 0; // J

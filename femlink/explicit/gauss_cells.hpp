@@ -37,15 +37,20 @@ inline CellStiffness gauss_stiffness(const CellGradients& corners, const Materia
 template <class Law>
 class GaussCells final : public CellBlock {
 public:
-    GaussCells(const HexMesh& mesh, const std::vector<int>& cells, const SolidMaterial& material)
+    GaussCells(const HexMesh& mesh, const std::vector<int>& cells, const SolidMaterial& material,
+               const StressAtRest* at_rest)
         : law_(material),
           rest_(rest_cells(mesh, cells, material.elastic.density, [&](const CellGradients& corners) {
               return gauss_stiffness(corners, material.elastic);
           })) {
         for (const int c : cells) {
-            for (const GaussGeometry& point : gauss_geometry(corners_of(mesh, c))) {
+            const CellGradients corners = corners_of(mesh, c);
+            const auto geometry = gauss_geometry(corners);
+            for (int q = 0; q < 8; ++q) {
+                const GaussGeometry& point = geometry[q];
                 const Eigen::Matrix3d inverse = point.jacobian.inverse();
-                const Symmetric a = symmetric_part(inverse * inverse.transpose());
+                const Symmetric b = elastic_b_at_rest(law_, at_rest, corners * shape_values(gauss_point(q)));
+                const Symmetric a = symmetric_part(inverse * as_eigen(b) * inverse.transpose());
                 weights_.push_back(point.volume);
                 points_.insert(points_.end(), {a.xx, a.yy, a.zz, a.yz, a.xz, a.xy});
                 points_.insert(points_.end(), Law::history, 0.0);

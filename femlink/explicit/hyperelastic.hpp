@@ -6,6 +6,7 @@
 //   volume(J)                    the functions of J that it needs
 //   stress(b, volume, history)   tau; a law that flows gives back the elastic b after flow
 //   energy(b, volume)            elastic, recoverable
+//   b_at_rest(rest, point)       b that the stress of rest there asks for; only of laws that depend on it
 //   plastic_work(history)        work done on plastic strain
 //   wave_factor(least, largest, log_volume)   bound on the growth of (wave speed / length at rest)^2 when the
 //                                principal stretches lie between these two
@@ -28,6 +29,7 @@ struct Volume {
 class StVenantKirchhoff {
 public:
     static constexpr int history = 0;
+    static constexpr bool knows_stress_at_rest = false;
 
     explicit StVenantKirchhoff(const SolidMaterial& m) : mu_(m.elastic.mu()), lambda_(m.elastic.lambda()) {}
 
@@ -53,6 +55,7 @@ private:
 class NeoHooke {
 public:
     static constexpr int history = 0;
+    static constexpr bool knows_stress_at_rest = false;
 
     explicit NeoHooke(const SolidMaterial& m) : mu_(m.elastic.mu()), lambda_(m.elastic.lambda()) {}
 

@@ -15,6 +15,7 @@ namespace grainfall::femlink {
 class J2Plasticity {
 public:
     static constexpr int history = 1; // alpha
+    static constexpr bool knows_stress_at_rest = false;
 
     explicit J2Plasticity(const SolidMaterial& m)
         : mu_(m.elastic.mu()), bulk_(m.elastic.lambda() + 2 * m.elastic.mu() / 3),

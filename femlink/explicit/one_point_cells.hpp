@@ -84,14 +84,15 @@ template <class Law>
 class OnePointCells final : public CellBlock {
 public:
     OnePointCells(const HexMesh& mesh, const std::vector<int>& cells, const SolidMaterial& material,
-                  double hourglass)
+                  double hourglass, const StressAtRest* at_rest)
         : law_(material),
           rest_(rest_cells(mesh, cells, material.elastic.density, [&](const CellGradients& corners) {
               return one_point_stiffness(corners, material.elastic, hourglass);
           })) {
         for (const int c : cells) {
             geometry_.push_back(one_point_geometry(corners_of(mesh, c), material.elastic.mu(), hourglass));
-            points_.insert(points_.end(), {1, 1, 1, 0, 0, 0});
+            const Symmetric b = elastic_b_at_rest(law_, at_rest, corners_of(mesh, c).rowwise().mean());
+            points_.insert(points_.end(), {b.xx, b.yy, b.zz, b.yz, b.xz, b.xy});
             points_.insert(points_.end(), Law::history, 0.0);
         }
     }

@@ -8,6 +8,7 @@
 
 #include <femlink/core/hex_mesh.hpp>
 #include <femlink/explicit/cell_block.hpp>
+#include <femlink/explicit/stress_at_rest.hpp>
 #include <femlink/explicit/symmetric_functions.hpp>
 
 #include <map>
@@ -34,6 +35,12 @@ struct RestCells {
 
 inline Eigen::Matrix3d as_eigen(const Matrix3& m) {
     return Eigen::Map<const Eigen::Matrix3d>(&m.c[0][0]);
+}
+
+inline Eigen::Matrix3d as_eigen(const Symmetric& a) {
+    Eigen::Matrix3d out;
+    out << a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz;
+    return out;
 }
 
 inline Symmetric symmetric_part(const Eigen::Matrix3d& m) {
@@ -73,6 +80,15 @@ inline std::array<GaussGeometry, 8> gauss_geometry(const CellGradients& corners)
     return out;
 }
 
+// Shape functions.
+inline Eigen::Matrix<double, 8, 1> shape_values(const std::array<double, 3>& at) {
+    Eigen::Matrix<double, 8, 1> out;
+    for (int k = 0; k < 8; ++k)
+        out[k] = 0.125 * (1 + (k & 1 ? at[0] : -at[0])) * (1 + (k & 2 ? at[1] : -at[1])) *
+                 (1 + (k & 4 ? at[2] : -at[2]));
+    return out;
+}
+
 inline CellGradients corners_of(const HexMesh& mesh, int cell) {
     CellGradients out;
     for (int k = 0; k < 8; ++k)
@@ -85,10 +101,9 @@ inline std::array<double, 8> nodal_volumes(const CellGradients& corners) {
     std::array<double, 8> out{};
     const auto geometry = gauss_geometry(corners);
     for (int q = 0; q < 8; ++q) {
-        const auto at = gauss_point(q);
+        const auto shape = shape_values(gauss_point(q));
         for (int k = 0; k < 8; ++k)
-            out[k] += 0.125 * (1 + (k & 1 ? at[0] : -at[0])) * (1 + (k & 2 ? at[1] : -at[1])) *
-                      (1 + (k & 4 ? at[2] : -at[2])) * geometry[q].volume;
+            out[k] += shape[k] * geometry[q].volume;
     }
     return out;
 }
@@ -102,6 +117,15 @@ inline void add_stiffness(const CellGradients& g, double volume, double mu, doub
                 mu * volume *
                 (g.col(b) * g.col(a).transpose() + g.col(a).dot(g.col(b)) * Eigen::Matrix3d::Identity());
     k += volume * (bulk - 2 * mu / 3) * divergence * divergence.transpose();
+}
+
+// b of a law at a point of the cells where they have not been deformed.
+template <class Law>
+Symmetric elastic_b_at_rest(const Law& law, const StressAtRest* at_rest, const Point& at) {
+    if constexpr (Law::knows_stress_at_rest)
+        if (at_rest)
+            return law.b_at_rest(*at_rest, at);
+    return Symmetric::identity();
 }
 
 // Largest eigenvalue of M^-1 K.

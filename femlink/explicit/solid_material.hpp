@@ -50,9 +50,9 @@ inline void validate(const SolidMaterial& material, const std::string& owner) {
         if (!(material.dilatancy >= 0 && material.dilatancy <= material.friction_angle))
             laws::reject(owner + ".dilatancy", material.dilatancy,
                          "in [0, friction_angle], in rad: above it plastic flow would create energy");
-        if (material.cohesion == 0)
+        if (material.cohesion == 0 && material.friction_angle == 0)
             laws::reject(owner + ".cohesion", material.cohesion,
-                         "> 0: without it and without the stress of gravity the soil has no strength");
+                         "> 0 where the friction angle is 0: without both the soil has no strength");
     }
 }
 

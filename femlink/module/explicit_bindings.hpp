@@ -29,12 +29,14 @@ using Mask = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor
 
 inline std::unique_ptr<ExplicitContinuum> explicit_from(const HexMesh& mesh, const SolidMaterials& materials,
                                                         const std::string& element, const std::string& outer,
-                                                        double safety, double hourglass, const Mask& held) {
+                                                        double safety, double hourglass, const Mask& held,
+                                                        const std::array<double, 3>& gravity) {
     ExplicitOptions options;
     options.element = element_kind_from_name("element", element);
     options.outer = outer_boundary_from_name("outer", outer);
     options.safety = safety;
     options.hourglass = hourglass;
+    options.gravity = {gravity[0], gravity[1], gravity[2]};
     if (held.size() != 0) {
         require_columns("held", held, 3);
         laws::require_length("held", static_cast<std::size_t>(held.rows()), mesh.vertices.size(),
@@ -128,10 +130,13 @@ hourglass : float
     Stiffness of the one-point element against hourglassing, share of the shear stiffness: 1 under grains, about 0.1
     where plastic flow is large, which it would stiffen.
 held : (n, 3) bool
-    Components of vertices held besides the fixed boundary. Held components keep the velocity they are given.)")
+    Components of vertices held besides the fixed boundary. Held components keep the velocity they are given.
+gravity : (3,) float, m/s^2
+    'drucker-prager' starts from the stress of soil at rest under its own weight, horizontal over vertical pressure
+    1 - sin(friction_angle) (Jaky 1944), and what balances it there goes on acting. Needed where cohesion is 0.)")
         .def(py::init(&explicit_from), py::arg("mesh"), py::arg("materials"), py::arg("element") = "gauss",
              py::arg("outer") = "fixed", py::arg("safety") = 0.9, py::arg("hourglass") = 1.0,
-             py::arg("held") = Mask())
+             py::arg("held") = Mask(), py::arg("gravity") = std::array<double, 3>{0, 0, 0})
         .def_property_readonly(
             "surface", &ExplicitContinuum::surface,
             "Coupling surface, its nodes and faces as in the quasi-static wall of degree 1.")
@@ -154,9 +159,8 @@ held : (n, 3) bool
                                "s, by the cells as they are deformed now")
         .def_property_readonly(
             "energies", [](const ExplicitContinuum& c) { return dict_of(c.energies()); },
-            "J: kinetic, elastic, hourglass, plastic, absorbed, ground; surface_work, support_work, "
-            "step_work; "
-            "residual: the first six less the work.")
+            "J: kinetic, elastic (from that at rest), hourglass, plastic, absorbed, ground; surface_work, "
+            "support_work, step_work; residual: the first six less the work.")
         .def_property_readonly("stress", &stress_of_cells,
                                "Mean Cauchy stress of each cell, (cells, 6): xx, yy, zz, yz, xz, xy, Pa.")
         .def_property_readonly("plastic_strain", &plastic_strain_of_cells,

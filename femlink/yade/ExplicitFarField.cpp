@@ -69,6 +69,7 @@ void ExplicitFarField::postLoad(ExplicitFarField&) {
     options.outer = fl::outer_boundary_from_name("ExplicitFarField.outer", outer);
     options.safety = safety;
     options.hourglass = hourglass;
+    options.gravity = gravity;
     continuum_ = std::make_shared<fl::ExplicitContinuum>(mesh_of(*this), solids_of(*this), options);
     if (continuum_->surface().face_count() == 0)
         grainfall::laws::reject("ExplicitFarField.boundary", "no coupling face", "at least one of id 2");

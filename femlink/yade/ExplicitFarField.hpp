@@ -40,6 +40,7 @@ public:
         ((string, outer, "fixed", Attr::readonly, "Outer boundary: 'fixed', 'absorbing' or 'dashpots'."))
         ((Real, safety, 0.9, Attr::readonly, "Longest substep over the critical one [-], > 0."))
         ((Real, hourglass, 1, Attr::readonly, "Stiffness of the one-point element against hourglassing over the shear stiffness [-], >= 0."))
+        ((Vector3r, gravity, Vector3r::Zero(), Attr::readonly, "Weight that drucker-prager soil is at rest under at the start [m/s2]."))
         ((vector<Real>, savedState, , Attr::hidden, "State at the last step."))
         ,
         ,

@@ -177,7 +177,6 @@ void FemWall::read_pulls() {
 
 /// Those of the last step into the touches.
 void FemWall::read_law_forces() {
-    read_pulls();
     for (size_t i = 0; i < touches_.size(); ++i) {
         if (touches_[i].is_empty())
             continue;

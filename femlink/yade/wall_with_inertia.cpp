@@ -17,6 +17,7 @@ namespace fl = grainfall::femlink;
 /// Moves on to the present time. In every `interval`-th step under the mean of the forces since the last; the
 /// surface goes there evenly in between.
 void FemWall::move_continuum() {
+    read_pulls();
     read_law_forces();
     const fl::Positions loads = wall_->loads_on_nodes(touches_);
     load_sum_ += loads;

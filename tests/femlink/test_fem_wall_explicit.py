@@ -144,6 +144,26 @@ def test_saved_in_the_middle_it_goes_on_to_the_last_bit(interval: int, tmp_path:
     assert (array(wall.nodePositions()) == went_on[1]).all()
 
 
+def test_dry_sand_that_bears_its_weight_yields_under_a_grain_and_goes_on_from_a_file(
+    tmp_path: Path,
+) -> None:
+    dry = solid(2e8, law="drucker-prager", friction_angle=0.6)
+    wall, grain = impact(dry, "flat", outer="absorbing", gravity=(0, 0, -9.81))
+    O.run(200, True)
+    scene = str(tmp_path / "scene.yade.gz")
+    O.save(scene)
+    O.run(50, True)
+    went_on = array(O.bodies[grain.id].state.pos), array(wall.nodePositions())
+    books = wall.continuum.energies
+    assert 0 < books["plastic"] < 0.5 * grain.state.mass
+    assert ledger.largestResidual < 0.02 * ledger.energyInPlay  # noqa: F821
+    O.load(scene)
+    O.run(50, True)
+    wall = next(e for e in O.engines if isinstance(e, FemWall))
+    assert (array(O.bodies[grain.id].state.pos) == went_on[0]).all()
+    assert (array(wall.nodePositions()) == went_on[1]).all()
+
+
 def test_moving_the_continuum_seldom_costs_little_accuracy() -> None:
     speeds = []
     for interval in (1, 5):

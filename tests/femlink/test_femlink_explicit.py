@@ -253,3 +253,38 @@ def test_wrong_input_is_refused_in_one_sentence() -> None:
         ValueError, match=r"^surface_forces = list of length 2: must be of length 9"
     ):
         wall.advance(1e-3, np.zeros((2, 3)))
+
+
+@pytest.mark.parametrize("element", ELEMENTS)
+def test_a_wall_pushed_into_dry_sand_meets_the_passive_earth_pressure(element: str) -> None:
+    """Plane strain, 2 % shorter in 0.5 s, 60 times as long as a wave takes to the top and back."""
+    box = femlink.box((0.5, 0.1, 1.0), (2, 1, 10), fixed="bottom")
+    mesh = femlink.HexMesh(box.vertices, box.cells)
+    held = np.zeros_like(mesh.vertices, dtype=bool)
+    held[:, :2] = True
+    held[np.isclose(mesh.vertices[:, 2], mesh.vertices[:, 2].min()), 2] = True
+    angle = np.radians(30)
+    sand = femlink.Solid(YOUNG, POISSON, DENSITY, law="drucker-prager", friction_angle=angle)
+    wall = femlink.ExplicitContinuum(
+        mesh, {0: sand}, element=element, held=held, gravity=(0, 0, -9.81)
+    )
+    at_rest = wall.stress
+    velocities = np.zeros_like(mesh.vertices)
+    velocities[:, 0] = -0.04 * mesh.vertices[:, 0]
+    wall.velocities = velocities
+    stresses = []
+    for k in range(500):
+        wall.advance(1e-3)
+        if k >= 300:
+            stresses.append(wall.stress)
+    stress = np.mean(stresses, axis=0)
+    # Weight above, on an area that has shrunk by 1.6 % in the mean.
+    assert stress[:, 2] == pytest.approx(at_rest[:, 2] / 0.984, rel=0.02)
+    # Flow without dilatancy in plane strain ends with the middle stress midway: sin phi* = eta.
+    eta = 6 * np.sin(angle) / (3**0.5 * (3 - np.sin(angle)))
+    passive = stress[:, 0] / stress[:, 2]
+    assert passive == pytest.approx((1 + eta) / (1 - eta), rel=0.02)
+    assert stress[:, 1] == pytest.approx((stress[:, 0] + stress[:, 2]) / 2, rel=0.02)
+    books = wall.energies
+    assert books["plastic"] > 0.5 * books["support_work"] > 0
+    assert abs(books["residual"]) < 5e-3 * books["support_work"]

@@ -28,6 +28,14 @@ CONTINUUM = {"far_field": "quasi-static", "far_field_interval": 10}
 BAD = [
     ({"far_field": "elastic"}, r"--far-field = 'elastic'.*rigid, quasi-static, explicit"),
     (
+        {"far_field": "quasi-static", "far_field_friction_angle": 0.5},
+        r"--far-field-friction-angle = 0.5: needs a continuum that yields",
+    ),
+    (
+        {"far_field": "explicit", "far_field_friction_angle": 0.5, "far_field_dilatancy": 0.6},
+        r"--far-field-dilatancy = 0.6: must be a number in \[0, 0.5\]",
+    ),
+    (
         {"far_field": "explicit", "far_field_degree": 2},
         r"--far-field-degree = 2: must be 1 with --far-field explicit",
     ),
@@ -192,6 +200,26 @@ def test_a_drop_in_a_continuum_with_inertia_states_it_and_balances(small_drop, w
     assert len(moments) > 1
     moved = np.linalg.norm(meshio.read(moments[-1]).point_data["displacement_m"], axis=1).max()
     assert 0 < moved <= wall["largest_displacement_m"] * 1.1
+
+
+def test_a_drop_in_a_continuum_of_dry_sand_yields_little_and_balances(
+    small_drop, wall_cache
+) -> None:
+    options = {"duration": 6e-3, "dt_safety": 0.1, "far_field": "explicit"}
+    elastic, _ = small_drop("elastic", **options)
+    summary, folder = small_drop(
+        "yields", far_field_friction_angle=0.5, vtk_interval=3e-3, **options
+    )
+    wall = summary["far_field"]
+    assert (wall["friction_angle"], wall["dilatancy"]) == (0.5, 0.0)
+    assert summary["energy_residual_relative"] < 1e-2
+    # Sand that yields gives way more than elastic ground of the same stiffness, but grains at rest do not make it flow.
+    assert wall["largest_displacement_m"] > 0.99 * elastic["far_field"]["largest_displacement_m"]
+    assert wall["largest_displacement_m"] < 5e-3
+    moment = meshio.read(sorted((folder / "vtk").glob("*-far-field.vtu"))[0])
+    vertical = moment.cell_data["stress_Pa"][0][:, 2]
+    # At the floor's depth: the weight of some 0.1 m of sand at 1600 kg/m3.
+    assert -1e4 < vertical.min() < -500
 
 
 def test_the_continuum_is_as_stiff_as_its_bed_unless_told_otherwise(resting_bed) -> None:

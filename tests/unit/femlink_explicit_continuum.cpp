@@ -48,7 +48,7 @@ Positions forces(CellBlock& block, const Positions& x) {
 std::unique_ptr<CellBlock> block_on(const HexMesh& mesh, const SolidMaterial& material, ElementKind kind) {
     std::vector<int> cells(mesh.cells.size());
     std::iota(cells.begin(), cells.end(), 0);
-    return block_of(mesh, cells, material, kind, 0.3);
+    return block_of(mesh, cells, material, kind, 0.3, nullptr);
 }
 
 const std::vector<ElementKind> kinds = {ElementKind::gauss, ElementKind::one_point};
@@ -235,6 +235,120 @@ TEST(ExplicitContinuum, refuses_wrong_input_in_one_sentence) {
                   ExplicitContinuum(mesh, {{1, sand(SolidLaw::j2)}}, {});
               }),
               "materials = no entry 0: must be given for every region of the mesh");
+}
+
+// Layers of 0.5 m: 2000 kg/m^3 under 1000.
+TEST(StressAtRest, is_the_weight_above_and_jakys_share_of_it) {
+    HexMesh mesh = box({1, 1, 1}, {2, 2, 2}, Held::bottom);
+    SolidMaterials materials{{0, sand(SolidLaw::drucker_prager)}, {1, sand(SolidLaw::drucker_prager)}};
+    materials[0].elastic.density = 2000;
+    materials[1].elastic.density = 1000;
+    const double top = mesh.vertices.back()[2];
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        mesh.regions[c] = mesh.vertices[mesh.cells[c][7]][2] > top - 0.25 ? 1 : 0;
+    const StressAtRest rest(mesh, materials, {0, 0, -10});
+    EXPECT_NEAR(rest.pressure({0, 0, top}), 0, 1e-9);
+    EXPECT_NEAR(rest.pressure({0.1, 0, top - 0.25}), 2500, 1e-9);
+    EXPECT_NEAR(rest.pressure({0, 0.2, top - 0.75}), 10000, 1e-9);
+    EXPECT_NEAR(rest.pressure({0, 0, top - 1}), 15000, 1e-9);
+    const double ratio = earth_pressure_at_rest(0.5235987755982988); // 30 degrees
+    EXPECT_NEAR(ratio, 0.5, 1e-12);
+    const Symmetric stress = rest.stress({0, 0, top - 0.75}, ratio);
+    EXPECT_NEAR(stress.zz, -10000, 1e-9);
+    EXPECT_NEAR(stress.xx, -5000, 1e-9);
+    EXPECT_NEAR(stress.xz, 0, 1e-9);
+}
+
+TEST(StressAtRest, follows_a_gravity_that_is_aslant) {
+    const HexMesh mesh = box({1, 1, 1}, {1, 1, 1}, Held::bottom);
+    const SolidMaterials materials{{0, sand(SolidLaw::drucker_prager)}};
+    const Point gravity = turn() * Point(0, 0, -9.81), up = -gravity.normalized();
+    const Point at = mesh.vertices[0] + Point(0.5, 0.5, 0.5);
+    const StressAtRest rest(mesh, materials, gravity);
+    const Eigen::Matrix3d stress = as_eigen(rest.stress(at, 0.4));
+    const double vertical = rest.pressure(at);
+    EXPECT_GT(vertical, 0);
+    EXPECT_LT((stress * up + vertical * up).norm(), 1e-9 * vertical);
+    EXPECT_NEAR(stress.trace(), -1.8 * vertical, 1e-9 * vertical);
+}
+
+// Whatever the mesh: what balances the stress at rest acts on its nodes.
+TEST(ExplicitContinuum, sand_without_cohesion_stays_at_rest_under_its_weight) {
+    const HexMesh mesh = distorted_block();
+    SolidMaterial dry = sand(SolidLaw::drucker_prager);
+    dry.cohesion = 0;
+    for (const ElementKind kind : kinds) {
+        ExplicitOptions options;
+        options.element = kind;
+        options.gravity = {0, 0, -9.81};
+        ExplicitContinuum wall(mesh, {{0, dry}}, options);
+        const auto cells = wall.cell_states();
+        EXPECT_LT(cells[0].stress.zz, cells[7].stress.zz); // below, above
+        EXPECT_NEAR(cells[0].stress.xx / cells[0].stress.zz, 1 - std::sin(dry.friction_angle), 1e-3);
+        wall.advance(20 * wall.critical_step(), Positions::Zero(3, wall.surface().node_count()));
+        EXPECT_EQ(wall.displacement().norm(), 0);
+        EXPECT_NEAR(wall.energies().content(), 0, 1e-20); // J; amplitudes of hourglass springs are rounded
+        EXPECT_EQ(cells[0].plastic_strain, 0);
+    }
+}
+
+// At constant volume the mean stress stays p0, and shear ends at eta p0.
+TEST(ExplicitContinuum, sand_without_cohesion_bears_the_shear_that_its_depth_gives_it) {
+    HexMesh mesh = box({0.1, 0.1, 1}, {1, 1, 10}, Held::bottom);
+    mesh.boundary.clear();
+    SolidMaterial dry = sand(SolidLaw::drucker_prager);
+    dry.cohesion = dry.dilatancy = 0;
+    ExplicitOptions options;
+    options.gravity = {0, 0, -9.81};
+    const auto nodes = static_cast<int>(mesh.vertices.size());
+    for (int node = 0; node < nodes; ++node)
+        for (int axis = 0; axis < 3; ++axis)
+            options.held.push_back({node, axis});
+    ExplicitContinuum wall(mesh, {{0, dry}}, options);
+    const auto before = wall.cell_states();
+    Positions velocities(3, nodes); // simple shear, 1 % in 1 s
+    for (int node = 0; node < nodes; ++node)
+        velocities.col(node) << 0.01 * mesh.vertices[node][2], 0, 0;
+    wall.set_velocities(velocities);
+    wall.advance(1, Positions::Zero(3, wall.surface().node_count()));
+    const auto after = wall.cell_states();
+    const double s = std::sin(dry.friction_angle), eta = 6 * s / (std::sqrt(3.0) * (3 - s));
+    for (std::size_t c = 0; c < after.size(); ++c) {
+        const Symmetric shape = after[c].stress.deviator();
+        EXPECT_NEAR(after[c].stress.trace(), before[c].stress.trace(), 1e-3 * -before[c].stress.trace());
+        // The yield point is that of each Gauss point, the stress their mean: the cone is linear in both.
+        EXPECT_NEAR(std::sqrt(contraction(shape, shape) / 2), -eta * before[c].stress.trace() / 3,
+                    2e-3 * -before[c].stress.trace());
+        EXPECT_GT(after[c].plastic_strain, 1e-4);
+    }
+}
+
+TEST(ExplicitContinuum, asks_for_gravity_or_cohesion_and_only_for_soil) {
+    const HexMesh mesh = distorted_block();
+    const auto refusal = [&](const SolidMaterial& material, const Point& gravity) -> std::string {
+        ExplicitOptions options;
+        options.gravity = gravity;
+        try {
+            ExplicitContinuum(mesh, {{0, material}}, options);
+        } catch (const std::invalid_argument& error) {
+            return error.what();
+        }
+        return "nothing was thrown";
+    };
+    SolidMaterial dry = sand(SolidLaw::drucker_prager);
+    dry.cohesion = 0;
+    EXPECT_EQ(refusal(dry, Point::Zero()),
+              "materials[0].cohesion = 0: must be > 0 without gravity: without both "
+              "the soil has no strength");
+    EXPECT_EQ(
+        refusal(sand(SolidLaw::j2), {0, 0, -9.81}),
+        "gravity = 9.81: must be 0 without a region of 'drucker-prager', the only law whose strength depends "
+        "on the stress at rest");
+    EXPECT_EQ(refusal(dry, {0, 0, std::nan("")}), "gravity[2] = nan: must be a finite number");
+    dry.friction_angle = dry.dilatancy = 0;
+    EXPECT_EQ(refusal(dry, {0, 0, -9.81}),
+              "materials[0].cohesion = 0: must be > 0 where the friction angle is 0: "
+              "without both the soil has no strength");
 }
 
 } // namespace

@@ -69,10 +69,8 @@ void GrainInteractionLoop::action() {
         last_shown_ = clock;
         look_.after = true;
     }
-    if (flat != wanted_flat_) {
-        look_.after = look_.contacts = true;
-        look_.changes_after = Changed::anything;
-    }
+    if (flat != wanted_flat_)
+        look_.let_all_look();
     if (grains_->must_search())
         grains_->search(reach());
     grains_->contacts(*scene, tables(), look_.contacts);

@@ -73,8 +73,7 @@ Look who_looks(const Scene& scene, const Engine& loop, const Engine& integrator,
                Real step_seconds) {
     Look look;
     if (last_step(scene)) {
-        look.after = look.contacts = true;
-        look.changes_after = Changed::anything;
+        look.let_all_look();
         if (scene.subStepping) {
             look.between = true;
             look.changes_between = Changed::anything;

@@ -16,6 +16,12 @@ struct Look {
     bool contacts = false; // at contacts and forces too
     Changed changes_between = Changed::nothing;
     Changed changes_after = Changed::nothing;
+
+    /// Everyone may look at everything, and change it, before the next step.
+    void let_all_look() {
+        after = contacts = true;
+        changes_after = Changed::anything;
+    }
 };
 
 /// What will be looked at in this step. Engines whose label is in `blind` are said to look at nothing.

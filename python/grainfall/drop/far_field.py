@@ -23,6 +23,7 @@ from yade import O, Vector3, utils
 from grainfall.bed_scene import add_grains, restore_contacts, wall_planes
 from grainfall.bed_stiffness import Moduli, bed_moduli
 from grainfall.beds import Bed
+from grainfall.constants import GRAVITY
 
 #: Growth of the cells from one to the next, outwards: docs/physics/far_field.md.
 RATIO = 1.3
@@ -40,12 +41,15 @@ class Inertial:
     mesh: Any
     solids: dict[int, Any]
     outer: str
+    gravity: tuple[float, float, float]
 
     def body(self) -> Any:
         """ExplicitContinuum at rest."""
         from grainfall import femlink
 
-        return femlink.ExplicitContinuum(self.mesh, self.solids, outer=self.outer)
+        return femlink.ExplicitContinuum(
+            self.mesh, self.solids, outer=self.outer, gravity=self.gravity
+        )
 
     @property
     def surface(self) -> Any:
@@ -77,6 +81,8 @@ class Continuum:
         Was it read from its file?
     outer : str
         Outer boundary.
+    friction_angle, dilatancy : float
+        [rad] of a continuum that yields; 0: it does not.
     """
 
     model: str
@@ -94,6 +100,8 @@ class Continuum:
     setup_seconds: float
     from_cache: bool
     outer: str = "fixed"
+    friction_angle: float = 0.0
+    dilatancy: float = 0.0
 
     def mesh(self) -> Any:
         """Its cells."""
@@ -105,10 +113,8 @@ class Continuum:
 
     def with_inertia(self) -> Inertial:
         """Of an explicit model: what its engine is made from."""
-        from grainfall import femlink
-
-        solids = {0: femlink.Solid(self.young, self.poisson, self.density)}
-        return Inertial(self.mesh(), solids, self.outer)
+        moduli = Moduli(self.young, self.poisson, self.density)
+        return _inertial(self.mesh(), moduli, self.outer, self.friction_angle, self.dilatancy)
 
     def save(self, path: Path) -> None:
         """Write to a JSON file."""
@@ -145,8 +151,11 @@ def add_bed_in_continuum(
     add_grains(bed, sand, wall)
     O.bodies.append(_screens(cavity, thickness, wall))
     if explicit:
-        solids = {0: femlink.Solid(*asdict(moduli).values())}
-        model: Any = Inertial(mesh, solids, p["far_field_outer"])
+        strength = {
+            "friction_angle": p["far_field_friction_angle"] or 0.0,
+            "dilatancy": p["far_field_dilatancy"],
+        }
+        model: Any = _inertial(mesh, moduli, p["far_field_outer"], **strength)
         held = sum(node < 0 for node in model.surface.loose)
         size = {
             "unknowns": 3 * (len(mesh.vertices) - held),
@@ -154,6 +163,7 @@ def add_bed_in_continuum(
             "compliance_bytes": 0,
             "from_cache": False,
             "outer": p["far_field_outer"],
+            **strength,
         }
     else:
         materials = {0: (moduli.young, moduli.poisson, moduli.density)}
@@ -178,6 +188,24 @@ def add_bed_in_continuum(
         **size,
     )
     return continuum, model
+
+
+def _inertial(
+    mesh: Any, moduli: Moduli, outer: str, friction_angle: float, dilatancy: float
+) -> Inertial:
+    """Elastic, or with an angle of friction dry sand, which yields from its stress at rest."""
+    from grainfall import femlink
+
+    if not friction_angle:
+        solid = femlink.Solid(*asdict(moduli).values())
+        return Inertial(mesh, {0: solid}, outer, (0.0, 0.0, 0.0))
+    solid = femlink.Solid(
+        *asdict(moduli).values(),
+        law="drucker-prager",
+        friction_angle=friction_angle,
+        dilatancy=dilatancy,
+    )
+    return Inertial(mesh, {0: solid}, outer, (0.0, 0.0, -GRAVITY))
 
 
 def cavity_depth(bed: Bed) -> float:
@@ -245,7 +273,12 @@ def add_faces(p: Mapping[str, Any], model: Any) -> Any:
     }
     if isinstance(model, Inertial):
         return femlink.add_explicit_wall(
-            model.mesh, model.solids, "wall", outer=model.outer, **attributes
+            model.mesh,
+            model.solids,
+            "wall",
+            outer=model.outer,
+            gravity=model.gravity,
+            **attributes,
         )
     return femlink.add_wall(model, "wall", cache=p["far_field_cache"], **attributes)
 

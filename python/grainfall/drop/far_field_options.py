@@ -72,6 +72,24 @@ FAR_FIELD = (
         open_low=True,
     ),
     Option(
+        "far_field_friction_angle",
+        None,
+        "of an explicit continuum that yields as dry sand does (Drucker and Prager's cone, from the stress of soil at "
+        "rest; default: it does not yield)",
+        "rad",
+        low=0,
+        high=1.2,
+        open_low=True,
+    ),
+    Option(
+        "far_field_dilatancy",
+        0.0,
+        "dilatancy of a continuum that yields",
+        "rad",
+        low=0,
+        high=1.2,
+    ),
+    Option(
         "far_field_interval",
         None,
         "steps between two solutions for all contacts on the continuum together, each solved alone in between; with "
@@ -103,6 +121,16 @@ def continuum_belongs_to_its_options(values: dict[str, Any], given: Mapping[str,
     if model == "explicit" and values["far_field_degree"] != 1:
         raise OptionError(
             f"--far-field-degree = {values['far_field_degree']}: must be 1 with --far-field explicit"
+        )
+    angle, dilatancy = values["far_field_friction_angle"], values["far_field_dilatancy"]
+    if angle is not None and model == "quasi-static":
+        raise OptionError(
+            f"--far-field-friction-angle = {angle}: needs a continuum that yields: --far-field must be explicit with it"
+        )
+    if dilatancy > (angle or 0) and model != "rigid":
+        raise OptionError(
+            f"--far-field-dilatancy = {dilatancy}: must be a number in [0, {angle or 0}] rad, up to "
+            "--far-field-friction-angle"
         )
     if model != "rigid":
         return

@@ -65,6 +65,7 @@ def add_explicit_wall(
     outer: str = "fixed",
     safety: float = 0.9,
     hourglass: float = 1.0,
+    gravity: Sequence[float] = (0.0, 0.0, 0.0),
     origin: Sequence[float] = (0.0, 0.0, 0.0),
     color: tuple[float, float, float] = (0.6, 0.5, 0.4),
     **attributes: Any,
@@ -73,7 +74,7 @@ def add_explicit_wall(
 
     Parameters
     ----------
-    mesh, solids, element, outer, safety, hourglass
+    mesh, solids, element, outer, safety, hourglass, gravity
         As of :class:`grainfall.femlink.ExplicitContinuum`.
     material, origin, color, attributes
         As of :func:`add_wall`. ``interval``: the continuum is moved on in every n-th step.
@@ -90,7 +91,9 @@ def add_explicit_wall(
     """
     import yade.wrapper as w
 
-    surface = _wall.ExplicitContinuum(mesh, dict(solids), element, outer, safety, hourglass).surface
+    surface = _wall.ExplicitContinuum(
+        mesh, dict(solids), element, outer, safety, hourglass, gravity=gravity
+    ).surface
     field = w.ExplicitFarField(
         vertices=[tuple(v) for v in mesh.vertices],
         cells=[int(n) for cell in mesh.cells for n in cell],
@@ -105,6 +108,7 @@ def add_explicit_wall(
         outer=outer,
         safety=safety,
         hourglass=hourglass,
+        gravity=tuple(gravity),
     )
     faces = _add_faces(surface, np.zeros_like(surface.nodes), material, origin, color)
     return w.FemWall(continuum=field, faces=faces, shift=tuple(origin), **attributes)
