@@ -71,14 +71,18 @@ def _conditions(results: dict[str, Any]) -> str:
     machine = results["machine"]
     cases = results["settled"] + results["moving"]
     grown = results.get("growth", {"others_busy_processors": [], "rounds": []})
-    busy = max(
-        [c["others_busy_processors"]["median"] for c in cases] + grown["others_busy_processors"]
-    )
+    busy = max((c["others_busy_processors"]["median"] for c in cases), default=0)
+    busy_growing = max(grown["others_busy_processors"], default=0)
     rounds = [c["rounds"] for c in cases] + grown["rounds"]
     spoken = " to ".join(map(str, sorted({min(rounds), max(rounds)})))
     lines = [
         f"{machine['date']}, {machine['processor']}, {machine['cores']} cores; medians of {spoken} "
-        f"rounds, quartiles in brackets. Other programs kept {busy:g} processors busy."
+        f"rounds, quartiles in brackets. Other programs kept {busy:g} processors busy"
+        + (
+            f", {busy_growing:g} while growth was measured (in processor time)."
+            if grown["rounds"]
+            else "."
+        )
     ]
     if busy > 0.1:
         lines.append(
