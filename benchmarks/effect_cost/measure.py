@@ -4,12 +4,12 @@
     /usr/bin/python3 benchmarks/effect_cost/measure.py [build directory] [--check] [--json FILE] [--docs FILE]
 
 Instructions are counted by valgrind's callgrind in a running YADE. The yardstick is a build in which no effect
-exists: plain_law.cpp, the plain kernel in functors of its own, and for what comes on top of another effect that effect
-without it (plain_effects.cpp). Passes if YADE's step takes at most 1 % more instructions per contact with effects off
-than with the yardstick, and our functor by itself, the choice of the kernel included, at most 1 % or, where it is short
-or finds a bridge, 1.5 %; if a contact takes no more bytes, if the step is the same within 1 % before and after grainfall
-is loaded, and if no case loads a library besides our own.
-``--check`` leaves the times out, which takes a minute.
+exists: plain_law.cpp, the plain kernel in functors of its own, and for what comes on top of another effect that
+effect without it (plain_effects.cpp). Passes if YADE's step takes at most 1 % more instructions per contact with
+effects off than with the yardstick, and our functor by itself, the choice of the kernel included, at most 1 % or,
+where it is short or finds a bridge, 1.5 %; if a contact takes no more bytes, if the step is the same within 1 %
+before and after grainfall is loaded, and if no case loads a library besides our own. ``--check`` leaves the times
+out, which takes a minute.
 """
 
 from __future__ import annotations
