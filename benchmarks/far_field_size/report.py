@@ -8,7 +8,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 
-from far_field_size.study import COMPARED_AT, CONTINUUM, LARGER, NEAR, RIGID, WHOLE
+from far_field_size.study import COMPARED_AT, CONTINUUM, FORCE_OVER, LARGER, NEAR, RIGID, WHOLE
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -42,12 +42,13 @@ def spread(values: list[float], scale: float, digits: int) -> str:
 
 
 def size_table(rows: list[Row], interval: int) -> list[str]:
-    """Peak force, depth, cost by near field and what is outside."""
+    """Force, depth, cost by near field and what is outside."""
     depth = f"depth after {1e3 * COMPARED_AT:.0f} ms, mm"
+    force = f"mean of {1e3 * FORCE_OVER:.0f} ms, N"
     lines = [
-        f"| half-width, diameters | outside | grains | peak, camera mean, N | {depth} | contacts on it | drop, s | "
-        "settling, s | set-up, s |",
-        "|---|---|---|---|---|---|---|---|---|",
+        f"| half-width, diameters | outside | grains | peak, camera mean, N | {force} | {depth} | "
+        "contacts on it | drop, s | settling, s | set-up, s |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for half_width in (*NEAR, WHOLE, *LARGER):
         for outside in (RIGID, CONTINUUM):
@@ -61,6 +62,7 @@ def size_table(rows: list[Row], interval: int) -> list[str]:
                 "rigid box" if outside == RIGID else "continuum",
                 f"{np.mean([r['grains'] for r in found]):.0f}",
                 spread([r["peak_force_camera_N"] for r in found], 1, 1),
+                spread([r["mean_force_N"] for r in found], 1, 1),
                 spread([r["depth_m"] for r in found], 1e3, 2),
                 "" if outside == RIGID else f"{np.mean([r['contacts'] for r in found]):.0f}",
                 f"{np.mean([r['drop_s'] for r in found]):.0f}",
@@ -87,11 +89,11 @@ def interval_table(rows: list[Row]) -> list[str]:
 
 
 def draw(rows: list[Row], interval: int) -> None:
-    """Depth and peak force over half-width, one point a packing."""
+    """Depth and mean force over half-width, one point a packing."""
     figure, panels = plt.subplots(1, 3, figsize=(11, 3.6))
     quantities = (
         ("depth_m", 1e3, f"depth {1e3 * COMPARED_AT:.0f} ms after touch [mm]"),
-        ("peak_force_camera_N", 1, "peak force, camera mean [N]"),
+        ("mean_force_N", 1, f"mean force of {1e3 * FORCE_OVER:.0f} ms from touch [N]"),
         ("drop_s", 1, "processor time of the drop [s]"),
     )
     kinds = (

@@ -24,6 +24,8 @@ INTERVALS = (10, 30, 100)
 DEPTH, GRAIN, YOUNG, END = 0.15, 12e-3, 2e8, 0.05
 #: Moment at which depths are compared, after first touch [s].
 COMPARED_AT = 0.04
+#: After first touch, the time over which the force is averaged [s]: its peak is the hit of single grains.
+FORCE_OVER = 0.02
 RIGID, CONTINUUM = "rigid", "quasi-static"
 
 
@@ -93,6 +95,7 @@ def run(case: Case, folder: Path, script: Path) -> dict[str, Any]:
         "drop_s": dropping,
         "setup_s": wall.get("setup_seconds", 0.0),
         "peak_force_camera_N": summary["peak_force_camera_N"],
+        "mean_force_N": mean_force(since_touch, trace["force_N"]),
         "depth_m": float(np.interp(COMPARED_AT, since_touch, trace["depth_m"])),
         "energy_residual_relative": summary["energy_residual_relative"],
         "young_Pa": wall.get("young_Pa"),
@@ -102,6 +105,13 @@ def run(case: Case, folder: Path, script: Path) -> dict[str, Any]:
         "largest_displacement_m": wall.get("largest_displacement_m"),
         "largest_disagreement": wall.get("largest_disagreement"),
     }
+
+
+def mean_force(since_touch: np.ndarray, force: np.ndarray) -> float:
+    """Of the first `FORCE_OVER` after the touch [N]."""
+    inside = (since_touch > 0) & (since_touch < FORCE_OVER)
+    times = np.concatenate([[0], since_touch[inside], [FORCE_OVER]])
+    return float(np.trapz(np.interp(times, since_touch, force), times) / FORCE_OVER)
 
 
 def _drop(options: dict[str, Any], output: Path, script: Path) -> float:
