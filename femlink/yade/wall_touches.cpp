@@ -82,7 +82,9 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     };
     vector<int> near, held;
     // A wall that is pressed in comes back as the load leaves it, so all that is inside the unloaded wall
-    // takes part; a bridge holds on further out.
+    // takes part. One with inertia is where it is, but a contact sees it as its patch does, which beside a
+    // dent is not where the surface lies: all that is no farther off than the wall has moved takes part, or
+    // it would begin with an overlap. A bridge holds on further out.
     Real reach = radius + largest_displacement_;
     for (auto pair = begin; pair != end; ++pair) {
         const int face = face_of(pair->face->id);
@@ -103,7 +105,8 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         fl::surface_contacts(wall_->surface(), positions_, near, held, centre, reach);
     const auto takes_part = [&](const fl::SurfaceContact& contact, bool is_real) {
         return is_real || contact.distance < radius ||
-               (!continuum && wall_->free_overlap(contact, centre, radius) > 0);
+               (continuum ? contact.distance < radius + largest_displacement_
+                          : wall_->free_overlap(contact, centre, radius) > 0);
     };
     vector<char> placed(found.size(), 0);
     for (size_t k = 0; k < found.size(); ++k) { // where they were

@@ -32,6 +32,10 @@ void FemWall::move_continuum() {
         if (scene->trackEnergy) {
             const fl::ExplicitEnergies energies = body.energies();
             storedEnergy = energies.kinetic + energies.elastic + energies.hourglass + energies.ground;
+            // What the forces that it came to rest under have done to it, which its own books do not hold.
+            for (size_t i = 0; i < startForces.size(); ++i)
+                storedEnergy +=
+                    startForces[i].dot(body.surface_displacement().col(static_cast<Eigen::Index>(i)));
             dissipatedEnergy = energies.plastic + energies.absorbed;
         }
         load_sum_.setZero();

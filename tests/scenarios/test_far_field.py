@@ -194,31 +194,30 @@ def test_a_drop_in_a_continuum_with_inertia_states_it_and_balances(small_drop, w
     wall = summary["far_field"]
     assert wall["model"] == "explicit" and wall["outer"] == "absorbing"
     assert wall["contacts"] > 50 and wall["largest_displacement_m"] > 0
-    # Forces and motion are exchanged once in 10 steps.
-    assert summary["energy_residual_relative"] < 1e-2
+    # Forces and motion are exchanged once in 10 steps; the rigid box leaves 1e-4.
+    assert summary["energy_residual_relative"] < 3e-3
     moments = sorted((folder / "vtk").glob("*-far-field.vtu"))
     assert len(moments) > 1
     moved = np.linalg.norm(meshio.read(moments[-1]).point_data["displacement_m"], axis=1).max()
     assert 0 < moved <= wall["largest_displacement_m"] * 1.1
 
 
-def test_a_drop_in_a_continuum_of_dry_sand_yields_little_and_balances(
-    small_drop, wall_cache
-) -> None:
-    options = {"duration": 6e-3, "dt_safety": 0.1, "far_field": "explicit"}
+def test_a_drop_goes_deeper_where_the_continuum_is_sand_that_yields(small_drop, wall_cache) -> None:
+    options = {"duration": 20e-3, "dt_safety": 0.1, "far_field": "explicit"}
     elastic, _ = small_drop("elastic", **options)
     summary, folder = small_drop(
         "yields", far_field_friction_angle=0.5, vtk_interval=3e-3, **options
     )
     wall = summary["far_field"]
     assert (wall["friction_angle"], wall["dilatancy"]) == (0.5, 0.0)
-    assert summary["energy_residual_relative"] < 1e-2
-    # Sand that yields gives way more than elastic ground of the same stiffness, but grains at rest do not make it flow.
-    assert wall["largest_displacement_m"] > 0.99 * elastic["far_field"]["largest_displacement_m"]
-    assert wall["largest_displacement_m"] < 5e-3
+    # 3.2e-3; 1.3e-3 with --far-field-interval 1, 0.9e-3 in the rigid box.
+    assert summary["energy_residual_relative"] < 5e-3
+    assert summary["depth_m"] > elastic["depth_m"]
+    # Sand at rest does not flow: it yields beside the projectile, by millimetres.
+    assert 1 < wall["largest_displacement_m"] / elastic["far_field"]["largest_displacement_m"] < 10
     moment = meshio.read(sorted((folder / "vtk").glob("*-far-field.vtu"))[0])
     vertical = moment.cell_data["stress_Pa"][0][:, 2]
-    # At the floor's depth: the weight of some 0.1 m of sand at 1600 kg/m3.
+    # Below the floor: the weight of some 0.1 m of sand at 1600 kg/m3.
     assert -1e4 < vertical.min() < -500
 
 
