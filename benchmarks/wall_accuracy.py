@@ -3,7 +3,7 @@
 
 usage: PYTHONPATH=build/python:benchmarks yade -j1 -n -x benchmarks/wall_accuracy.py
 
-Degree, mesh and solver, all cells of a mesh the halves of those of the mesh with twice as many in the contact radius:
+Degree, mesh and solver, with twice as many cells in the contact radius all cells half as large, also where they grow:
 Hertz's pressure over a circle on a block, and the strain energy that it stores beside that in a half-space, 2/5 of
 force times indentation; and a rigid sphere that touches node by node, its force beside Hertz's at contact radii from
 0.6 to 1 of the circle's, root of the mean square, since single ones scatter as rows of nodes come into contact. The
@@ -26,18 +26,17 @@ import numpy as np
 from grainfall import femlink
 from speed.report import fill
 
-sys.path.append(str(Path(sys.argv[0]).resolve().parents[1] / "tests" / "femlink"))
+ROOT = Path(sys.argv[0]).resolve().parents[1]
+sys.path.append(str(ROOT / "tests" / "femlink"))
 from femlink_walls import node_contacts  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-ROOT = Path(sys.argv[0]).resolve().parents[1]
 YOUNG, POISSON = 20e6, 0.3  # Pa, 1: sand
 CONTACT_RADIUS = 0.01  # m
-GROWTH = (
-    1.96  # of the cells towards the boundary, where one of them is as large as the contact radius
-)
+#: Of the cells towards the boundary, where one of them is as large as the contact radius.
+GROWTH = 1.96
 SPHERE = 0.1  # m
 #: Degree, cells in the contact radius, solver.
 CASES = (
@@ -159,8 +158,7 @@ def table(rows: list[dict[str, Any]]) -> str:
     """Markdown."""
     lines = [
         "| degree | cells in the contact radius | solver | unknowns | on the surface | energy over the half-space's, "
-        "less 1 | "
-        "rigid sphere's force off Hertz's, rms (mean) | set-up, s | memory, MB |",
+        "less 1 | rigid sphere's force off Hertz's, rms (mean) | set-up, s | memory, MB |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for row in rows:

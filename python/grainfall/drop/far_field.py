@@ -196,16 +196,12 @@ def _inertial(
     """Elastic, or with an angle of friction dry sand, which yields from its stress at rest."""
     from grainfall import femlink
 
-    if not friction_angle:
-        solid = femlink.Solid(*asdict(moduli).values())
-        return Inertial(mesh, {0: solid}, outer, (0.0, 0.0, 0.0))
-    solid = femlink.Solid(
-        *asdict(moduli).values(),
-        law="drucker-prager",
-        friction_angle=friction_angle,
-        dilatancy=dilatancy,
-    )
-    return Inertial(mesh, {0: solid}, outer, (0.0, 0.0, -GRAVITY))
+    law, weight = {}, 0.0
+    if friction_angle:
+        law = {"law": "drucker-prager", "friction_angle": friction_angle, "dilatancy": dilatancy}
+        weight = GRAVITY
+    solid = femlink.Solid(*asdict(moduli).values(), **law)
+    return Inertial(mesh, {0: solid}, outer, (0.0, 0.0, -weight))
 
 
 def cavity_depth(bed: Bed) -> float:

@@ -118,28 +118,28 @@ _OF_THE_CONTINUUM = tuple(o for o in FAR_FIELD if o.name.startswith("far_field_"
 def continuum_belongs_to_its_options(values: dict[str, Any], given: Mapping[str, Any]) -> None:
     """What belongs to a continuum is given only with one."""
     model = values["far_field"]
+    if model == "rigid":
+        for option in _OF_THE_CONTINUUM:
+            if values[option.name] != option.default and not option.runtime:
+                raise OptionError(
+                    f"{option.flag} = {values[option.name]}: needs a continuum: --far-field must be "
+                    "quasi-static or explicit with it"
+                )
+        return
+    angle, dilatancy = values["far_field_friction_angle"], values["far_field_dilatancy"]
     if model == "explicit" and values["far_field_degree"] != 1:
         raise OptionError(
             f"--far-field-degree = {values['far_field_degree']}: must be 1 with --far-field explicit"
         )
-    angle, dilatancy = values["far_field_friction_angle"], values["far_field_dilatancy"]
-    if angle is not None and model == "quasi-static":
+    if model == "quasi-static" and angle is not None:
         raise OptionError(
             f"--far-field-friction-angle = {angle}: needs a continuum that yields: --far-field must be explicit with it"
         )
-    if dilatancy > (angle or 0) and model != "rigid":
+    if dilatancy > (angle or 0):
         raise OptionError(
             f"--far-field-dilatancy = {dilatancy}: must be a number in [0, {angle or 0}] rad, up to "
             "--far-field-friction-angle"
         )
-    if model != "rigid":
-        return
-    for option in _OF_THE_CONTINUUM:
-        if values[option.name] != option.default and not option.runtime:
-            raise OptionError(
-                f"{option.flag} = {values[option.name]}: needs a continuum: --far-field must be "
-                "quasi-static or explicit with it"
-            )
 
 
 def near_field_is_one_box(values: dict[str, Any], given: Mapping[str, Any]) -> None:
