@@ -12,10 +12,12 @@ from pathlib import Path
 import __main__
 import contact_scenes as cs
 import grainfall
+import numpy as np
 import pytest
 from grainfall.effects import running_effects
+from grainfall.pricing.comparison import entry
 from grainfall.pricing.price_list import PriceList
-from grainfall.pricing.variants import variants
+from grainfall.pricing.variants import Variant, variants
 from priced_heap import heap
 from yade import GrainMat, InteractionLoop, NewtonIntegrator, O, PyRunner
 
@@ -124,10 +126,36 @@ def test_dashpots_take_kinetic_energy(priced):
     assert priced["prices"]["viscous damping"].change_kinetic_J < 0
 
 
-def test_partial_slip_and_bridges_cost_time(priced):
-    """In the quarter of rounds that were cheapest, too: they take 2.4 and 1.5 times the step without them."""
-    assert priced["prices"]["partial slip"].price_quartiles[0] > 0
-    assert priced["prices"]["liquid bridges"].price_quartiles[0] > 0
+def test_every_price_is_of_the_same_rounds_with_and_without(priced):
+    """Which of the two is dearer is for benchmarks to say: this machine may be busy with other things."""
+    for effect in priced["prices"].effects:
+        low, high = effect.price_quartiles
+        assert effect.step_with_us > 0 and effect.step_without_us > 0, effect.effect
+        assert low <= effect.price <= high, effect.effect
+
+
+@pytest.mark.parametrize("on", [True, False])
+def test_a_price_is_the_median_over_the_rounds_of_time_with_over_time_without(on):
+    """Rounds that others disturbed, with and without alike or only one of them, leave it as it is."""
+    alone, with_effect = np.array([4.0, 4, 4, 8, 40]) * 1e-4, np.array([6.0, 6, 6, 12, 6]) * 1e-4
+    times, base = (alone, with_effect) if on else (with_effect, alone)
+    here = {
+        "positions": {0: np.zeros(3)},
+        "force": 2.0,
+        "kinetic": 1.0,
+        "stored": 0.5,
+        "contacts": 100,
+    }
+    there = {**here, "positions": {0: np.array([3e-6, 4e-6, 0])}, "force": 1.0, "kinetic": 0.75}
+    line = entry(Variant("an effect", on, "none", lambda: None), times, base, (here, there))
+    assert line["price"] == pytest.approx(0.5) and line["price_quartiles"][1] == pytest.approx(0.5)
+    assert line["step_with_us"] == pytest.approx(600) and line["step_without_us"] == pytest.approx(
+        400
+    )
+    assert line["nanoseconds_per_contact"] == pytest.approx(2e-4 / 100 * 1e9)
+    assert line["change_position_m"] == pytest.approx(5e-6)
+    assert line["change_contact_force"] == pytest.approx(1.0 if on else -0.5)
+    assert line["change_kinetic_J"] == pytest.approx(0.25 if on else -0.25)
 
 
 def test_prices_are_printed_and_are_plain_values_for_json(priced):
