@@ -77,6 +77,13 @@ bool announcePlugin(const char* file, Names... names) {
 #define YADE_ABI_QUOTED(r, data, klass) , BOOST_PP_STRINGIZE(klass)
 #define YADE_ABI_EXPORT(r, data, klass) BOOST_CLASS_EXPORT_IMPLEMENT(yade::klass)
 #define YADE_ABI_PYTHON(r, data, klass)                                                                      \
+    void klass::pySetAttr(const std::string& key, const boost::python::object& value) {                      \
+        if (!::yade::abi::setAttribute(*this, key, value))                                                   \
+            AbiBase::pySetAttr(key, value);                                                                  \
+    }                                                                                                        \
+    boost::python::dict klass::pyDict() const {                                                              \
+        return ::yade::abi::attributeDict(*this, this->pyDictCustom(), AbiBase::pyDict());                   \
+    }                                                                                                        \
     void klass::pyRegisterClass(boost::python::object scope) {                                               \
         registerInPython(scope);                                                                             \
     }

@@ -94,8 +94,9 @@ struct ClassDefinition {
     abiVisitor(::yade::abi::Attribute<&klass::YADE_ABI_NAME(a), YADE_ABI_FLAGS(a)>{                          \
         BOOST_PP_STRINGIZE(YADE_ABI_NAME(a)), YADE_ABI_DOC(a)});
 
-// pyRegisterClass is defined by YADE_PLUGIN, in one source file: there, and only there, a compiler makes the
-// class's tables and its Python and archive code.
+// pySetAttr, pyDict and pyRegisterClass are defined by YADE_PLUGIN, in one source file: there, and only
+// there, a compiler makes the class's tables and its Python and archive code. (What an inline function calls
+// it would make wherever it reads the class: half of the time of a source file with a large class.)
 //
 // postLoad & co. are called unqualified from inside the class: a member of that name wins over
 // yade::postLoad. Parameters are called abi... so that no attribute of any class is shadowed.
@@ -111,13 +112,9 @@ public:                                                                         
         (void)abiVisitor;                                                                                    \
         BOOST_PP_SEQ_FOR_EACH(YADE_ABI_VISIT, klass, attrs)                                                  \
     }                                                                                                        \
-    void pySetAttr(const std::string& abiKey, const boost::python::object& abiValue) override {              \
-        if (!::yade::abi::setAttribute(*this, abiKey, abiValue))                                             \
-            base::pySetAttr(abiKey, abiValue);                                                               \
-    }                                                                                                        \
-    boost::python::dict pyDict() const override {                                                            \
-        return ::yade::abi::attributeDict(*this, this->pyDictCustom(), base::pyDict());                      \
-    }                                                                                                        \
+    using AbiBase = base;                                                                                    \
+    void pySetAttr(const std::string& abiKey, const boost::python::object& abiValue) override;               \
+    boost::python::dict pyDict() const override;                                                             \
     void callPostLoad() override {                                                                           \
         base::callPostLoad();                                                                                \
         postLoad(*this);                                                                                     \
