@@ -133,6 +133,64 @@ def test_a_projectile_meets_the_grains_alike_on_both_paths():
     assert np.abs(general["force"][-1]).max() > 0
 
 
+def add_clump(place: tuple[float, float, float]) -> int:
+    """Two unequal spheres that overlap, as one body; its id."""
+    first = np.array(place)
+    grains = [
+        utils.sphere(tuple(first + shift), radius, material=O.materials[0])
+        for shift, radius in (((0.0, 0, 0), 0.004), ((0.004, 0.001, 0.002), 0.003))
+    ]
+    clump, _ = O.bodies.appendClumped(grains, discretization=20)
+    return clump
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_clumps_move_and_are_hit_alike_on_both_paths(exact):
+    """Clumps among the grains and on each other: members push, the clump tumbles by its own moments of inertia."""
+
+    def build_clumps(flat: bool) -> None:
+        pack(sand())
+        for i in range(6):
+            place = (
+                0.0078 * (i % 2) + 0.01,
+                0.0115 * (i // 2 % 2) + 0.01,
+                0.0375 + 0.008 * (i // 4),
+            )
+            add_clump(place)
+        engines(flat, more=[scenes.ledger()])
+        O.engines[3].exactAsphericalRot = exact
+        for body in O.bodies:
+            if body.isClump:
+                body.state.vel = (0, 0, -1 - 20 * (body.state.pos[2] - 0.039))
+
+    met = set()  # members of clumps in a contact
+    for steps in (65, 75, 130, 300):
+        flat, general = on_both_paths(build_clumps, steps)
+        assert_equal((flat, general), MANY_STEPS)
+        members = [b.id for b in O.bodies if b.isClumpMember]
+        met |= set(np.isin(general["ids"], members).sum(axis=1).tolist())
+    assert met == {0, 1, 2}
+
+
+def test_one_step_of_a_clump_is_the_general_path_s_to_1e_12():
+    """From the same moving scene, the clump on the grains."""
+    O.reset()
+    pack(sand())
+    clump = add_clump((0.01, 0.01, 0.0388))
+    O.bodies[clump].state.vel = (0.1, 0, -1)
+    engines(False)
+    O.run(45, True)
+    O.saveTmp("clumps")
+    results = []
+    for flat in (True, False):
+        O.loadTmp("clumps")
+        engines(flat)
+        O.run(1, True)
+        results.append(scenes.state())
+    assert np.abs(results[0]["force"][clump]).max() > 0
+    assert_equal((results[0], results[1]), ONE_STEP)
+
+
 def test_a_giant_sphere_among_small_ones_finds_all_its_neighbours():
     def build_giant(flat: bool) -> None:
         pack(sand(), count=5)
@@ -323,11 +381,10 @@ def test_a_law_changed_under_way_takes_over_the_forces_alike_on_both_paths():
 
 
 def test_what_cannot_run_flat_runs_on_the_general_path_and_says_why():
-    def clumps() -> None:
+    def many_clumps() -> None:
         build(True)
-        O.bodies.appendClumped(
-            [utils.sphere((0.1 + 0.004 * i, 0, 0), 0.004, material=O.materials[0]) for i in (0, 1)]
-        )
+        for i in range(260):
+            add_clump((0.1 + 0.02 * i, 0, 0))
 
     def stock_integrator() -> None:
         build(True)
@@ -340,7 +397,7 @@ def test_what_cannot_run_flat_runs_on_the_general_path_and_says_why():
         O.periodic = True
 
     for scene, reason in (
-        (clumps, "clumps"),
+        (many_clumps, "520 bodies are members of clumps"),
         (stock_integrator, "GrainIntegrator"),
         (periodic, "periodic"),
     ):

@@ -164,7 +164,7 @@ private:
     GeneralPairs general_;
     bool moved_ = true;
     bool booking_ = false;
-    bool planes_known_ = false; // has the force container room for the planes?
+    bool has_room_ = false; // has the force container places for planes and clumps?
     bool forces_published_ = false;
     bool contacts_published_ = false; // in the last step
     bool states_published_ = false;

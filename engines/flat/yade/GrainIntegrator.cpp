@@ -3,6 +3,7 @@
 
 #include <engines/flat/rigid_motion.hpp>
 #include <engines/flat/yade/GrainInteractionLoop.hpp>
+#include <engines/flat/yade/clumps.hpp>
 
 #include <core/EnergyTracker.hpp>
 #include <core/Scene.hpp>
@@ -44,9 +45,16 @@ void GrainIntegrator::action() {
     contacts->step_done();
 }
 
-/// A body that is no flat sphere: as NewtonIntegrator does it.
+/// A body that is no flat sphere: as NewtonIntegrator does it. Members go with their clump.
 void GrainIntegrator::move_other(Body& body, const gf::StepRules& rules) {
+    if (body.isClumpMember())
+        return;
     State& state = *body.state;
+    if (body.isClump()) {
+        const gf::Load members = load_of_members(*scene, body);
+        scene->forces.addForceUnsynced(body.id, members.force);
+        scene->forces.addTorqueUnsynced(body.id, members.torque);
+    }
     const Vector3r& force = scene->forces.getForce(body.id);
     const Vector3r& torque = scene->forces.getTorque(body.id);
     const bool aspherical = body.isAspherical();
@@ -57,6 +65,8 @@ void GrainIntegrator::move_other(Body& body, const gf::StepRules& rules) {
     }
     gf::RigidBody rigid{state.pos, state.ori, state.vel, state.angVel, state.angMom, inertia};
     gf::advance(rigid, force, torque, rules, exactAsphericalRot && aspherical);
+    if (body.isClump())
+        carry_members(*scene, body);
 }
 
 void GrainIntegrator::settle_books(const gf::MotionBook& grains) {

@@ -44,7 +44,7 @@ public:
         "and motion of spheres and walls of :yref:`GrainMat` in packed arrays (the flat path), with the same kernels. It finds neighbours "
         "itself: the collider in O.engines lends its bounding functors and rests (dead = True). Pairs of other shapes are computed by their own functors in "
         "the same step. State, forces and interactions are written whenever another engine or Python is about to look; engines "
-        "that look at grains in every step make it slow. What cannot run flat (clumps, a periodic cell, another law) runs as in "
+        "that look at grains in every step make it slow. What cannot run flat (a periodic cell, another law, hundreds of clumps) runs as in "
         "InteractionLoop; :yref:`path<GrainInteractionLoop.path>` says why.",
         ((bool, flat, true, , "use the flat path where the scene allows it? False: as InteractionLoop."))
         ((Real, skin, 0.05, , "room that a search for neighbours leaves each grain, as part of the smallest grain's radius [-], > 0. Larger: fewer searches, more pairs to look at in each step."))

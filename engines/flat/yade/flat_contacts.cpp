@@ -8,6 +8,7 @@
 
 #include <core/InteractionContainer.hpp>
 #include <core/State.hpp>
+#include <pkg/common/Sphere.hpp>
 
 #include <utility>
 
@@ -200,7 +201,8 @@ void FlatGrains::prepare_walls(Scene& scene) {
     vector<FacePair> pairs;
     const int face = FemFace::getClassIndexStatic();
     for (const GeneralPair& pair : general_.all())
-        if (pair.first->shape->getClassIndex() == face && is_flat(pair.second->id))
+        if (pair.first->shape->getClassIndex() == face &&
+            dynamic_cast<const Sphere*>(pair.second->shape.get()))
             pairs.push_back({pair.contact, pair.first, pair.second});
     yade::prepare_walls(scene, std::move(pairs), functors);
 }
@@ -231,7 +233,7 @@ void FlatGrains::load_planes(Scene& scene) {
             domain.loads[i] = gf::Load();
         }
         // Adding the usual way would make the container sum up all bodies anew.
-        if (scene.forces.synced && planes_known_) {
+        if (scene.forces.synced && has_room_) {
             scene.forces.addForceUnsynced(bodies_.ids[i], sum.force);
             scene.forces.addTorqueUnsynced(bodies_.ids[i], sum.torque);
         } else {
@@ -239,7 +241,10 @@ void FlatGrains::load_planes(Scene& scene) {
             scene.forces.addTorque(bodies_.ids[i], sum.torque);
         }
     }
-    planes_known_ = true;
+    for (const Body* body : others_)
+        if (!has_room_ && body->isClump())
+            scene.forces.addForce(body->id, Vector3r::Zero());
+    has_room_ = true;
 }
 
 /// Load on a sphere from the contacts of all threads; read once, then gone.

@@ -46,13 +46,12 @@ std::string FlatGrains::obstacle(const Scene& scene) const {
     for (const auto& body : scene.bodies->body) {
         if (!body)
             continue;
-        if (!body->isStandalone())
-            return "there are clumps";
-        if (!is_flat_sphere(*body) && !is_flat_plane(*body) && !is_face(*body))
+        if (body->isBounded() && !is_flat_sphere(*body) && !is_flat_plane(*body) && !is_face(*body))
             ++others;
     }
     if (others > 500)
-        return std::to_string(others) + " bodies are neither spheres nor walls of GrainMat";
+        return std::to_string(others) +
+               " bodies are members of clumps, or neither spheres nor walls of GrainMat";
     return functors.obstacle();
 }
 
@@ -72,7 +71,7 @@ void FlatGrains::take_over(Scene& scene, int threads) {
     for (Imported& contact : contacts)
         add_contact(domains_[0], std::move(contact));
     moved_ = true;
-    forces_published_ = planes_known_ = false;
+    forces_published_ = has_room_ = false;
 }
 
 void FlatGrains::take_over_bodies(Scene& scene) {

@@ -10,6 +10,8 @@
 namespace yade {
 
 bool may_collide(const Body& first, const Body& second, int avoid_self_interaction) {
+    if (first.isClumpMember() && first.clumpId == second.clumpId)
+        return false;
     const bool share_mask = first.groupMask & second.groupMask;
     const bool avoid = first.groupMask == second.groupMask && (first.groupMask & avoid_self_interaction);
     return share_mask && !avoid;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <engines/time_step/yade/velocity_correction.hpp>
 
-#include <core/Clump.hpp>
+#include <engines/flat/yade/clumps.hpp>
+
 #include <pkg/dem/NewtonIntegrator.hpp>
 
 namespace yade {
@@ -21,12 +22,9 @@ void add_loads(Scene& scene, const Body& body, Vector3r& force, Vector3r& torque
     torque = scene.forces.getTorque(body.id);
     if (!body.isClump())
         return;
-    for (const auto& [id, pose] : static_cast<const Clump&>(*body.shape).members) {
-        const Vector3r& on_member = scene.forces.getForce(id);
-        const Vector3r lever = (*scene.bodies)[id]->state->pos - body.state->pos;
-        force += on_member;
-        torque += scene.forces.getTorque(id) + lever.cross(on_member);
-    }
+    const grainfall::flat::Load members = load_of_members(scene, body);
+    force += members.force;
+    torque += members.torque;
 }
 
 } // namespace
