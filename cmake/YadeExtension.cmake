@@ -38,6 +38,7 @@ target_link_libraries(yade_interface INTERFACE
 file(GLOB extension_sources CONFIGURE_DEPENDS
     "${PROJECT_SOURCE_DIR}/laws/yade/*.cpp"
     "${PROJECT_SOURCE_DIR}/engines/*/yade/*.cpp"
+    "${PROJECT_SOURCE_DIR}/femlink/core/*.cpp"
     "${PROJECT_SOURCE_DIR}/femlink/yade/*.cpp"
     "${PROJECT_SOURCE_DIR}/python/module/*.cpp")
 add_library(grainfall_core MODULE ${extension_sources})
@@ -48,7 +49,7 @@ target_compile_options(grainfall_core PRIVATE -fno-math-errno)
 # contact costs a fifth more than the same law written by hand (benchmarks/effect_cost/measure.py).
 file(GLOB inner_loops CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/laws/yade/contact_kernels_*.cpp"
      "${PROJECT_SOURCE_DIR}/laws/yade/wet_contact.cpp" "${PROJECT_SOURCE_DIR}/engines/flat/yade/flat_*.cpp"
-     "${PROJECT_SOURCE_DIR}/femlink/yade/wall_solution.cpp" "${PROJECT_SOURCE_DIR}/femlink/yade/ExplicitFarField.cpp")
+     "${PROJECT_SOURCE_DIR}/femlink/core/*.cpp" "${PROJECT_SOURCE_DIR}/femlink/yade/wall_*.cpp" "${PROJECT_SOURCE_DIR}/femlink/yade/ExplicitFarField.cpp")
 # -Wno-psabi: functions over vectors of four numbers are all inlined, so that no convention of passing them matters.
 # (YADE's own -frounding-math would take the square roots of four numbers one by one, and is no part of its interface.)
 set_source_files_properties(${inner_loops} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>;-Wno-psabi")

@@ -18,33 +18,6 @@
 
 namespace grainfall::femlink {
 
-struct ContactSite {
-    ContactPatch patch;
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); // Q: normal towards the grain, two tangents by column
-
-    bool operator==(const ContactSite& other) const {
-        return patch.nodes == other.patch.nodes && patch.weights == other.patch.weights &&
-               patch.blocks == other.patch.blocks && axes == other.axes;
-    }
-};
-
-using Sites = std::vector<const ContactSite*>;
-
-inline Sites listed(const std::vector<ContactSite>& sites) {
-    Sites out;
-    for (const ContactSite& site : sites)
-        out.push_back(&site);
-    return out;
-}
-
-inline Eigen::Matrix3d contact_axes(const Point& normal) {
-    Eigen::Matrix3d axes;
-    axes.col(0) = normal;
-    axes.col(1) = normal.unitOrthogonal();
-    axes.col(2) = normal.cross(axes.col(1));
-    return axes;
-}
-
 // The loose nodes under the patches of some contacts, and C between them.
 class LoadedNodes {
 public:
@@ -251,12 +224,6 @@ inline Positions displacements(const Surface& surface, const Eigen::MatrixXd& co
         if (surface.loose[node] != Surface::fixed)
             out.col(node) = displacement.segment<3>(3 * surface.loose[node]);
     return out;
-}
-
-// What the contact at a site sees of the surface's displacement, in its own axes.
-inline Eigen::Vector3d seen_displacement(const ContactSite& site, const Positions& displacement) {
-    const Point sum = gathered(site.patch, [&](int node) { return displacement.col(node); });
-    return site.axes.transpose() * sum;
 }
 
 } // namespace grainfall::femlink

@@ -18,6 +18,7 @@
 // until both lie on it: the load stays centred, becomes a line at an edge and a point at a corner.
 #pragma once
 
+#include <femlink/core/contact_site.hpp>
 #include <femlink/core/surface.hpp>
 
 #include <cmath>
@@ -36,38 +37,6 @@ inline double disc_compliance(double young, double poisson, double radius) {
 
 // Cosine of the sharpest edge (37 degrees) over which the surface counts as one and a patch runs.
 inline constexpr double smooth_cosine = 0.8;
-
-struct ContactPatch {
-    std::vector<int> nodes; // of the surface
-    std::vector<double> weights;
-    std::vector<Eigen::Matrix3d> blocks; // B_a; empty on a flat patch, where B_a = w_a I
-
-    bool is_flat() const { return blocks.empty(); }
-    Eigen::Matrix3d block(std::size_t a) const {
-        return is_flat() ? Eigen::Matrix3d(weights[a] * Eigen::Matrix3d::Identity()) : blocks[a];
-    }
-};
-
-// B F, node by node: add(node, its part).
-template <class Add>
-void spread(const ContactPatch& patch, const Point& force, const Add& add) {
-    for (std::size_t a = 0; a < patch.nodes.size(); ++a)
-        add(patch.nodes[a],
-            patch.is_flat() ? Point(patch.weights[a] * force) : Point(patch.blocks[a] * force));
-}
-
-// B^T u, with of(node) the displacement of a node.
-template <class Of>
-Point gathered(const ContactPatch& patch, const Of& of) {
-    Point sum = Point::Zero();
-    for (std::size_t a = 0; a < patch.nodes.size(); ++a) {
-        if (patch.is_flat())
-            sum += patch.weights[a] * of(patch.nodes[a]);
-        else
-            sum += patch.blocks[a].transpose() * of(patch.nodes[a]);
-    }
-    return sum;
-}
 
 namespace detail {
 

@@ -69,8 +69,12 @@ inline Eigen::Vector2d capped_shear(const Eigen::Matrix2d& compliance, double sh
     double size = shear.norm();
     if (size <= limit)
         return shear;
-    // 1/|s| is nearly linear in lambda (More and Sorensen), and Newton on it rises to the root from below.
-    double lambda = 0;
+    // 1/|s| is nearly linear in lambda (More and Sorensen), and Newton on it rises to the root from below:
+    // from where it would lie if the wall gave way in all directions as in its softest.
+    const double softest = 0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b);
+    double lambda = std::max(0.0, stretch.norm() / limit - softest);
+    shear = solved(lambda);
+    size = shear.norm();
     for (int i = 0; i < 30 && std::abs(size - limit) > 1e-15 * limit; ++i) {
         const double p = a + lambda, r = c + lambda, determinant = p * r - b * b;
         const Eigen::Vector2d slope((r * shear[0] - b * shear[1]) / determinant,

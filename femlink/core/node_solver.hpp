@@ -36,8 +36,9 @@ Eigen::Matrix3d contact_stiffness(const Contact& contact, const Eigen::Matrix3d&
     const double overlap = contact.free_overlap - there[0];
     if (!(force[0] > 0) || !(overlap > 0) || !(own(0, 0) > 0))
         return stiffness;
-    // Infinite where a dashpot starts; beyond this it no longer matters.
-    const double enough = 1e8 / own(0, 0);
+    // Infinite where a dashpot starts. Beyond this it no longer matters, even of many contacts on one node, and
+    // single precision would lose the wall beside it.
+    const double enough = 1e6 / own(0, 0);
     stiffness(0, 0) = std::clamp(contact.relation.stiffness(overlap), 0.0, enough);
     const double limit = contact.shear_limit(force[0]);
     if (!(limit > 0))
@@ -71,6 +72,7 @@ public:
                        const std::vector<Contact>& contacts, Eigen::VectorXd& forces,
                        const SolverOptions& options) {
         lay_out(sites);
+        is_yielded_ = false;
         SolverReport report;
         if (rigidity_.rows() != nodes_.compliance().rows())
             return report; // C is singular
@@ -81,7 +83,7 @@ public:
         int halvings = 0;
         mixing_.forget();
         for (int since_factor = 0; report.sweeps <= std::min(options.max_sweeps, most_iterations);) {
-            yield(forces);
+            yield(forces, options.tolerance);
             for (int i = 0; i < count; ++i)
                 answers.segment<3>(3 * i) =
                     contact_force<Contact>(contacts[i], own[i], seen(i, yielded_), forces.segment<3>(3 * i));
@@ -168,6 +170,7 @@ private:
         if (version_ != nodes_.version()) {
             version_ = nodes_.version();
             rigidity_ = dense::inverse(nodes_.compliance());
+            single_compliance_ = nodes_.compliance().cast<float>();
             is_stale_ = true;
         }
         // A contact in the place of another has no part in the factor.
@@ -207,12 +210,30 @@ private:
                 nodes.segment<3>(3 * slots_[k]) += span.site->patch.blocks[which_[k]] * push;
     }
 
-    // C B Q q
-    void yield(const Eigen::VectorXd& forces) {
-        load_.setZero(nodes_.compliance().rows());
+    // C B Q q. What has changed little since the last time is added in single precision.
+    void yield(const Eigen::VectorXd& forces, double tolerance) {
+        constexpr double rounding = 1e-7, negligible = 1e-4; // of single precision; of the tolerance
+        const Eigen::Index size = nodes_.compliance().rows();
+        load_.setZero(size);
+        if (is_yielded_) {
+            moves_ = forces - yielded_to_;
+            is_yielded_ = rounding * moves_.norm() <= negligible * tolerance * forces.norm();
+        }
+        const Eigen::VectorXd& by = is_yielded_ ? moves_ : forces;
         for (std::size_t i = 0; i < spans_.size(); ++i)
-            press(static_cast<int>(i), forces.segment<3>(3 * i), load_);
-        dense::multiply(nodes_.compliance(), load_, yielded_);
+            press(static_cast<int>(i), by.segment<3>(3 * i), load_);
+        if (is_yielded_) {
+            const double scale = load_.lpNorm<Eigen::Infinity>();
+            if (scale > 0) {
+                single_load_ = (load_ / scale).cast<float>();
+                dense::multiply(single_compliance_, single_load_, single_yielded_);
+                yielded_ += scale * single_yielded_.cast<double>();
+            }
+        } else {
+            dense::multiply(nodes_.compliance(), load_, yielded_);
+        }
+        yielded_to_ = forces;
+        is_yielded_ = true;
     }
 
     void factorise() {
@@ -229,7 +250,7 @@ private:
                     stiffness.block<3, 3>(3 * slots_[a], 3 * slots_[b]) += weights_[a] * weighed;
             }
         }
-        factor_.compute(std::move(stiffness));
+        factor_.compute(stiffness);
         is_stale_ = false;
         fewest_ = std::numeric_limits<int>::max();
         wasted_ = 0;
@@ -276,7 +297,11 @@ private:
     Eigen::MatrixXd rigidity_; // S
     dense::Factor factor_;
     Mixing mixing_;
-    Eigen::VectorXd load_, yielded_, changes_;
+    Eigen::VectorXd load_, changes_;
+    Eigen::VectorXd yielded_, yielded_to_, moves_; // of the nodes; forces that that is of; their changes
+    bool is_yielded_ = false;                      // do these two hold for the contacts as they are?
+    Eigen::MatrixXf single_compliance_;
+    Eigen::VectorXf single_load_, single_yielded_;
     long version_ = -1; // of the nodes that S is of
     bool is_stale_ = true;
     int fewest_ = 0, wasted_ = 0; // iterations since the factor is what it is

@@ -10,21 +10,13 @@
 
 #include <femlink/core/closest_point.hpp>
 #include <femlink/core/contact_patch.hpp>
+#include <femlink/core/surface_contact.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace grainfall::femlink {
-
-struct SurfaceContact {
-    int face = -1;
-    Reference at = Reference::Zero();
-    Point foot = Point::Zero();   // m, on the surface as given
-    Point normal = Point::Zero(); // unit vector, from the surface to the sphere
-    double distance = 0;          // m, of the centre; negative behind the face
-    bool inside_face = true;      // else on an edge or corner
-};
 
 namespace detail {
 
@@ -47,11 +39,11 @@ inline bool share_a_node(const Surface& surface, int a, int b) {
 
 template <int degree>
 bool nearest_on_face(const Surface& surface, const Positions& positions, int face, const Point& centre,
-                     double reach, SurfaceContact& out) {
+                     const Reference& start, double reach, SurfaceContact& out) {
     const FaceNodes<degree> nodes = surface.template face<degree>(face, positions);
     if (!may_touch<degree>(nodes, centre, reach))
         return false;
-    const ClosestPoint found = closest_point<degree>(nodes, centre);
+    const ClosestPoint found = closest_point<degree>(nodes, centre, start);
     if (std::abs(found.distance) > reach)
         return false;
     out = {face,           found.reference,
@@ -62,42 +54,43 @@ bool nearest_on_face(const Surface& surface, const Positions& positions, int fac
 
 } // namespace detail
 
-// Contacts of a sphere among `faces`, at most `reach` (m) from its centre, nearest first. `before`: faces
-// that held its contacts.
-inline std::vector<SurfaceContact> surface_contacts(const Surface& surface, const Positions& positions,
-                                                    const std::vector<int>& faces,
-                                                    const std::vector<int>& before, const Point& centre,
-                                                    double reach) {
-    std::vector<SurfaceContact> found;
-    SurfaceContact one;
-    for (const int face : faces) {
-        const bool near = surface.degree == 1
-                              ? detail::nearest_on_face<1>(surface, positions, face, centre, reach, one)
-                              : detail::nearest_on_face<2>(surface, positions, face, centre, reach, one);
-        if (near)
-            found.push_back(one);
-    }
-    if (found.size() < 2)
-        return found;
+// Contacts of a sphere among `faces`, at most `reach` (m) from its centre, nearest first, into `found`.
+inline void find_surface_contacts(const Surface& surface, const Positions& positions,
+                                  const std::vector<int>& faces, const std::vector<HeldFace>& before,
+                                  const Point& centre, double reach, std::vector<SurfaceContact>& found) {
+    const auto held = [&](int face) {
+        return std::find_if(before.begin(), before.end(), [&](const HeldFace& h) { return h.face == face; });
+    };
     const double equal = 1e-9 * reach;
     const auto rank = [&](const SurfaceContact& c) {
-        const bool held = std::find(before.begin(), before.end(), c.face) != before.end();
-        return std::abs(c.distance) - (held ? equal : 0);
+        return std::abs(c.distance) - (held(c.face) != before.end() ? equal : 0);
     };
-    std::stable_sort(found.begin(), found.end(),
-                     [&](const SurfaceContact& a, const SurfaceContact& b) { return rank(a) < rank(b); });
-    std::vector<SurfaceContact> owned;
-    for (const SurfaceContact& candidate : found) {
-        const bool stands_alone =
-            std::all_of(owned.begin(), owned.end(), [&](const SurfaceContact& accepted) {
-                if (candidate.normal.dot(accepted.normal) >= smooth_cosine)
-                    return false;
-                return candidate.inside_face || !detail::share_a_node(surface, candidate.face, accepted.face);
-            });
-        if (stands_alone)
-            owned.push_back(candidate);
+    found.clear();
+    SurfaceContact one;
+    for (const int face : faces) {
+        const auto known = held(face);
+        const Reference start = known != before.end() ? known->at : Reference::Zero();
+        const bool near =
+            surface.degree == 1
+                ? detail::nearest_on_face<1>(surface, positions, face, centre, start, reach, one)
+                : detail::nearest_on_face<2>(surface, positions, face, centre, start, reach, one);
+        if (!near)
+            continue;
+        const auto farther = std::find_if(
+            found.begin(), found.end(), [&](const SurfaceContact& other) { return rank(one) < rank(other); });
+        found.insert(farther, one);
     }
-    return owned;
+    auto owned = found.begin(); // end of those that are accepted
+    for (auto candidate = found.begin(); candidate != found.end(); ++candidate) {
+        const bool stands_alone = std::all_of(found.begin(), owned, [&](const SurfaceContact& accepted) {
+            if (candidate->normal.dot(accepted.normal) >= smooth_cosine)
+                return false;
+            return candidate->inside_face || !detail::share_a_node(surface, candidate->face, accepted.face);
+        });
+        if (stands_alone)
+            *owned++ = *candidate;
+    }
+    found.erase(owned, found.end());
 }
 
 } // namespace grainfall::femlink

@@ -18,18 +18,18 @@
 // by more than `turn`, which in a wall that bends is every few steps, but means only that its axes turn.
 #pragma once
 
+#include <femlink/core/contact_site.hpp>
 #include <femlink/core/law_contact.hpp>
-#include <femlink/core/staggered.hpp>
-#include <femlink/core/surface_contacts.hpp>
+#include <femlink/core/surface_contact.hpp>
 #include <femlink/core/wall_model.hpp>
-#include <femlink/core/wall_solver.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace grainfall::femlink {
+
+class WallSolver;
 
 // One contact of a sphere with the surface.
 struct WallTouch {
@@ -69,11 +69,9 @@ class QuasiStaticWall {
 public:
     static constexpr double turn = 1e-4; // rad
 
-    explicit QuasiStaticWall(WallModel model)
-        : model_(std::make_unique<WallModel>(std::move(model))),
-          unloaded_(model_->surface.nodes + model_->preload),
-          displacement_(Positions::Zero(3, model_->surface.node_count())), nodal_forces_(displacement_),
-          datum_(displacement_), solver_(model_->surface, model_->compliance) {}
+    explicit QuasiStaticWall(WallModel model);
+    QuasiStaticWall(QuasiStaticWall&&) noexcept;
+    ~QuasiStaticWall();
 
     const WallModel& model() const { return *model_; }
     const Surface& surface() const { return model_->surface; }
@@ -84,14 +82,13 @@ public:
     Positions positions() const { return unloaded_ + displacement_ - datum_; }
     // m, displacement of the nodes that counts as none.
     const Positions& datum() const { return datum_; }
-    void put_datum(const Positions& datum) { datum_ = datum; }
+    void put_datum(const Positions& datum) {
+        datum_ = datum;
+        has_datum_ = !datum.isZero(0);
+    }
 
     // The wall is where it is under the forces that the touches now hold.
-    void settle_under(const std::vector<WallTouch>& touches) {
-        auto [sites, forces] = loads(touches);
-        bear(sites, forces);
-        datum_ = displacement_;
-    }
+    void settle_under(const std::vector<WallTouch>& touches);
     // N, of the contacts on the wall.
     const Positions& nodal_forces() const { return nodal_forces_; }
 
@@ -102,179 +99,50 @@ public:
 
     // Moves the load to where the contact is, if it has left its place by more than `drift` of the patch's
     // radius, and turns it as the contact has turned; true if it moved.
-    bool follow(WallTouch& touch, double patch, double drift) const {
-        const double allowed = drift * patch * face_size(surface(), unloaded_, touch.place.face);
-        const bool stays = touch.anchor.face == touch.place.face &&
-                           (unloaded_point(touch.anchor) - unloaded_point(touch.place)).norm() <= allowed;
-        if (stays && (touch.anchor.normal - touch.place.normal).norm() <= turn)
-            return false;
-        const Eigen::Matrix3d axes = touch.site.axes;
-        const Point left = stays ? Point::Zero() : seen(touch.site);
-        if (stays) {
-            touch.anchor.normal = touch.place.normal;
-            put_axes(touch);
-        } else {
-            touch.anchor = touch.place;
-            put_site(touch, patch);
-        }
-        const Eigen::Matrix3d turned = touch.site.axes.transpose() * axes;
-        for (Eigen::Vector3d* force : {&touch.force, &touch.solved, &touch.trend})
-            *force = turned * *force;
-        if (stays)
-            return false;
-        // Another place on the wall, not a motion of the wall.
-        const Point change = seen(touch.site) - left;
-        touch.seen += change;
-        touch.seen_before += change;
-        return true;
-    }
-
+    bool follow(WallTouch& touch, double patch, double drift) const;
     // Makes the site that belongs to the touch's anchor.
-    void put_site(WallTouch& touch, double patch) const {
-        const double radius = patch * face_size(surface(), unloaded_, touch.anchor.face);
-        touch.site.patch = contact_patch(surface(), unloaded_, touch.anchor.face, touch.anchor.at, radius);
-        touch.own_in_space = patch_compliance(surface(), model_->compliance, touch.site.patch);
-        put_axes(touch);
-    }
+    void put_site(WallTouch& touch, double patch) const;
 
     // m, overlap with the unloaded wall of a sphere whose contact is `place`, its load at `site`.
     double free_overlap(const SurfaceContact& place, const ContactSite& site, const Point& centre,
-                        double radius) const {
-        return radius - place.normal.dot(centre - unloaded_point(place)) - seen_displacement(site, datum_)[0];
-    }
-
+                        double radius) const;
     // The same for a contact that has no site yet, the datum taken at its point.
-    double free_overlap(const SurfaceContact& place, const Point& centre, double radius) const {
-        const Point here = point_of(place, unloaded_) - point_of(place, datum_);
-        return radius - place.normal.dot(centre - here);
-    }
+    double free_overlap(const SurfaceContact& place, const Point& centre, double radius) const;
 
     // Solves all contacts; `contacts` in the order of `touches`, empty places included. Pulls are given.
     SolverReport solve(std::vector<WallTouch>& touches, std::vector<LawContact> contacts,
-                       const SolverOptions& options) {
-        draw_out(touches, contacts);
-        auto [sites, forces] = loads(touches);
-        std::vector<Eigen::Matrix3d> own;
-        own.reserve(touches.size());
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            own.push_back(touches[i].own);
-            forces.segment<3>(3 * i) = touches[i].solved + touches[i].trend;
-        }
-        const SolverReport report = solver_.solve(sites, own, contacts, forces, options);
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            WallTouch& touch = touches[i];
-            touch.force = forces.segment<3>(3 * i);
-            touch.trend = touch.force - touch.solved;
-            touch.solved = touch.force;
-            forces[3 * i] -= touch.pull;
-        }
-        bear(sites, forces);
-        return report;
-    }
-
+                       const SolverOptions& options);
     // After a solution for all, if the next comes in so many steps: what the other contacts do goes to its
     // new value by then, evenly. `before`: the touch as the step before left it. A wall that jumped there in
     // one step would hit the contacts' dashpots.
-    void approach(WallTouch& touch, const WallTouch& before, int steps) const {
-        touch.seen = seen(touch.site);
-        touch.drift = touch.site.axes * (touch.others() - before.others()) / steps;
-        touch.seen = before.seen;
-        touch.force = before.force;
-    }
-
+    void approach(WallTouch& touch, const WallTouch& before, int steps) const;
     // After a solution for all, if the next comes in the next step.
-    void arrive(WallTouch& touch) const {
-        touch.seen = seen(touch.site);
-        touch.drift.setZero();
-    }
-
+    void arrive(WallTouch& touch) const;
     // Between two solutions for all, this contact alone; after one, what is left between it and its law.
-    void solve_alone(WallTouch& touch, LawContact contact, const SolverOptions& options) const {
-        const Eigen::Vector3d others = touch.others() + touch.site.axes.transpose() * touch.drift;
-        contact.free_overlap += others[0];
-        contact.shift += others.tail<2>();
-        double change = 0;
-        int sweeps = 0;
-        do {
-            const Eigen::Vector3d before = touch.force;
-            touch.force = contact_force<LawContact>(contact, touch.own, touch.own * before, before);
-            change = (touch.force - before).cwiseAbs().maxCoeff();
-        } while (change > options.tolerance * touch.force[0] && ++sweeps < options.max_sweeps);
-        touch.seen = touch.site.axes * (others - touch.own * touch.force);
-    }
+    void solve_alone(WallTouch& touch, LawContact contact, const SolverOptions& options) const;
 
     // N, what the touches' forces come to on the nodes.
-    Positions loads_on_nodes(const std::vector<WallTouch>& touches) const {
-        const auto [sites, forces] = loads(touches);
-        return femlink::nodal_forces(surface(), sites, forces);
-    }
-
+    Positions loads_on_nodes(const std::vector<WallTouch>& touches) const;
     // The staggered exchange: the wall under the forces that the law found in the last step, which the
     // touches hold. Returns its gain; from 1 on it diverges.
-    double exchange(const std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts) {
-        const auto [sites, forces] = loads(touches);
-        const double gain = staggered_gain(solver_.condense(sites), contacts);
-        bear(sites, forces);
-        return gain;
-    }
+    double exchange(const std::vector<WallTouch>& touches, const std::vector<LawContact>& contacts);
 
     // From here on as if read from a file.
-    void forget_matrices() { solver_.forget(); }
-
+    void forget_matrices();
     // What the contacts see of the wall as it lies.
     Point seen(const ContactSite& site) const { return site.axes * seen_displacement(site, displacement_); }
 
 private:
-    static void put_axes(WallTouch& touch) {
-        const Eigen::Matrix3d axes = contact_axes(touch.anchor.normal);
-        touch.site.axes = axes;
-        touch.own = axes.transpose() * touch.own_in_space * axes;
-    }
-
-    // The contacts on the wall as the pulls leave it.
-    void draw_out(const std::vector<WallTouch>& touches, std::vector<LawContact>& contacts) const {
-        if (std::none_of(touches.begin(), touches.end(), [](const WallTouch& t) { return t.pull != 0; }))
-            return;
-        auto [sites, pulls] = loads(touches);
-        for (std::size_t i = 0; i < touches.size(); ++i)
-            pulls.segment<3>(3 * i) << -touches[i].pull, 0, 0;
-        const Positions drawn =
-            displacements(surface(), model_->compliance, femlink::nodal_forces(surface(), sites, pulls));
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            const Eigen::Vector3d there = seen_displacement(touches[i].site, drawn);
-            contacts[i].free_overlap += there[0];
-            contacts[i].shift += there.tail<2>();
-        }
-    }
-
+    void draw_out(const std::vector<WallTouch>& touches, std::vector<LawContact>& contacts) const;
     Point unloaded_point(const SurfaceContact& place) const { return point_of(place, unloaded_); }
-
-    // Interpolates a field on the nodes.
-    Point point_of(const SurfaceContact& place, const Positions& field) const {
-        const Surface& s = surface();
-        return s.degree == 1 ? face_frame<1>(s.face<1>(place.face, field), place.at).y
-                             : face_frame<2>(s.face<2>(place.face, field), place.at).y;
-    }
-
-    static std::pair<Sites, Eigen::VectorXd> loads(const std::vector<WallTouch>& touches) {
-        Sites sites;
-        Eigen::VectorXd forces(3 * touches.size());
-        sites.reserve(touches.size());
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            sites.push_back(&touches[i].site);
-            forces.segment<3>(3 * i) = touches[i].whole_force();
-        }
-        return {std::move(sites), std::move(forces)};
-    }
-
-    void bear(const Sites& sites, const Eigen::VectorXd& forces) {
-        nodal_forces_ = femlink::nodal_forces(surface(), sites, forces);
-        displacement_ = displacements(surface(), model_->compliance, nodal_forces_);
-    }
+    Point point_of(const SurfaceContact& place, const Positions& field) const;
+    void bear(const Sites& sites, const Eigen::VectorXd& forces);
 
     std::unique_ptr<WallModel> model_; // at a fixed address: solver_ refers to it
     Positions unloaded_, displacement_, nodal_forces_, datum_;
-    WallSolver solver_;
+    bool has_datum_ = false;
+    std::vector<double> face_sizes_; // m
+    std::unique_ptr<WallSolver> solver_;
 };
 
 } // namespace grainfall::femlink

@@ -138,10 +138,11 @@ vector<FacePair> FemWall::pairs_in_scene(FunctorLists& lists) {
             pairs.push_back({contact, face, sphere});
         }
     }
+    sort_pairs(pairs);
     return pairs;
 }
 
-void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
+void FemWall::prepare(const vector<FacePair>& pairs, FunctorLists& lists) {
     if (preparedStep == scene->iter)
         return;
     if (shapes_.empty())
@@ -162,7 +163,8 @@ void FemWall::prepare(vector<FacePair>& pairs, FunctorLists& lists) {
     for (fl::WallTouch& touch : touches_)
         touch.seen_before = touch.seen;
     find_touches(pairs);
-    make_new_contacts_real(lists);
+    if (!continuum)
+        find_physics(lists);
     read_pulls();
     solve(solvedStep < 0 || scene->iter - solvedStep >= interval);
     boundaryWork -= 0.5 * scene->dt * velocity.dot(force + force_before);
@@ -195,7 +197,7 @@ void FemWall::write_faces() {
     if (surface_moved_ || velocity != Vector3r::Zero())
         move_faces();
     for (size_t i = 0; i < touches_.size(); ++i)
-        if (!touches_[i].is_empty() && partners_[i].contact && partners_[i].contact->isReal())
+        if (touches_wall(i))
             shapes_[static_cast<size_t>(touches_[i].place.face)]->touches.push_back(face_touch(i));
 }
 

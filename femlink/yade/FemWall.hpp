@@ -35,9 +35,9 @@ public:
     void postLoad(FemWall&);
     void preSave(FemWall&);
 
-    /// Solves the wall for this step. `pairs`: all that are near one of this wall's faces. Contacts that
-    /// change face take their interactions' history along.
-    void prepare(vector<FacePair>& pairs, FunctorLists& lists);
+    /// Solves the wall for this step. `pairs`: all that are near one of this wall's faces, sorted. Contacts
+    /// that change face take their interactions' history along.
+    void prepare(const vector<FacePair>& pairs, FunctorLists& lists);
     /// Interactions of this wall's faces in the scene, as pairs.
     vector<FacePair> pairs_in_scene(FunctorLists& lists);
     /// From GrainInteractionLoop where it runs as InteractionLoop.
@@ -120,6 +120,7 @@ private:
     /// What YADE has of touches_, same place.
     struct Partner {
         shared_ptr<Interaction> contact;
+        shared_ptr<Interaction> trial; // with the physics that the contact would have, while it is not real
         Body* face = nullptr;
         Body* sphere = nullptr;
         Vector3r velocity = Vector3r::Zero(); // m/s, of the wall at the contact, without that of its boundary
@@ -137,6 +138,12 @@ private:
     using Place = std::pair<Body::id_t, size_t>; // a sphere, and where in touches_
     using Places = std::pair<vector<Place>::const_iterator, vector<Place>::const_iterator>;
     vector<Place> places_; // sorted
+    struct {               // of one sphere
+        vector<int> near;
+        vector<grainfall::femlink::HeldFace> held;
+        vector<grainfall::femlink::SurfaceContact> found;
+        vector<char> placed;
+    } look_;
     bool surface_moved_ = true;
     bool restored_ = false;    // interactions not known yet
     bool has_bridges_ = false; // has a contact had liquid?
@@ -158,17 +165,20 @@ private:
     shared_ptr<Engine> interaction_loop() const;
     void check_functors(FunctorLists& lists) const;
     void compare_with_law();
-    void find_touches(vector<FacePair>& pairs);
-    void find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>::iterator end);
+    using NextPair = vector<FacePair>::const_iterator;
+    void find_touches(const vector<FacePair>& pairs);
+    void find_touches_of(NextPair begin, NextPair end);
     size_t known_touch(const Places& of_sphere, const FacePair& pair) const;
     size_t new_touch();
     void forget_touch(size_t place);
     void follow(size_t place, const grainfall::femlink::SurfaceContact& found, const FacePair& pair);
-    void make_new_contacts_real(FunctorLists& lists);
+    void make(const shared_ptr<Interaction>& contact, size_t place, FunctorLists& lists) const;
+    void find_physics(FunctorLists& lists);
+    bool touches_wall(size_t place) const;
     grainfall::femlink::LawContact law_contact(size_t place, int steps = 1) const;
     void carry(Interaction& from, Interaction& to) const;
     void solve(bool together);
-    void solve_together(vector<grainfall::femlink::LawContact> laws,
+    void solve_together(const vector<grainfall::femlink::LawContact>& laws,
                         const grainfall::femlink::SolverOptions& options);
     void move_continuum();
     void see_continuum();

@@ -30,13 +30,23 @@ bool has_walls(const Scene& scene) {
     return !walls_of(scene).empty();
 }
 
-void prepare_walls(Scene& scene, vector<FacePair> pairs, FunctorLists& functors) {
-    for (FemWall* wall : walls_of(scene)) {
+void sort_pairs(vector<FacePair>& pairs) {
+    std::sort(pairs.begin(), pairs.end(), [](const FacePair& a, const FacePair& b) {
+        return a.sphere->id != b.sphere->id ? a.sphere->id < b.sphere->id : a.face->id < b.face->id;
+    });
+}
+
+void prepare_walls(Scene& scene, const vector<FacePair>& pairs, FunctorLists& functors) {
+    const vector<FemWall*> walls = walls_of(scene);
+    for (FemWall* wall : walls) {
         wall->scene = &scene;
-        const auto others = std::partition(pairs.begin(), pairs.end(),
-                                           [&](const FacePair& pair) { return wall->has_face(*pair.face); });
-        vector<FacePair> own(std::make_move_iterator(pairs.begin()), std::make_move_iterator(others));
-        pairs.erase(pairs.begin(), others);
+        if (walls.size() == 1) {
+            wall->prepare(pairs, functors);
+            continue;
+        }
+        vector<FacePair> own;
+        std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(own),
+                     [&](const FacePair& pair) { return wall->has_face(*pair.face); });
         wall->prepare(own, functors);
     }
 }

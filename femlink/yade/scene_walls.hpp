@@ -18,6 +18,8 @@ struct FacePair {
     Body* face;
     Body* sphere;
 };
+/// By sphere, then by face.
+void sort_pairs(vector<FacePair>& pairs);
 
 /// J
 struct WallEnergies {
@@ -33,8 +35,8 @@ struct ExchangeLimit {
 
 bool is_wall(const Engine& engine);
 bool has_walls(const Scene& scene);
-/// Solves the walls of a scene whose loop knows the pairs that are near.
-void prepare_walls(Scene& scene, vector<FacePair> pairs, FunctorLists& functors);
+/// Solves the walls of a scene whose loop knows the pairs that are near, sorted.
+void prepare_walls(Scene& scene, const vector<FacePair>& pairs, FunctorLists& functors);
 /// The same where YADE's collider has found them.
 void prepare_walls(Scene& scene);
 WallEnergies wall_energies(const Scene& scene);

@@ -65,7 +65,8 @@ fl::LawContact FemWall::law_contact(size_t place, int steps) const {
     out.relation.idle_overlap =
         touch.free_overlap + touch.seen_before.dot(normal) + span * (state.vel - velocity).dot(normal);
     Vector3r shear = Vector3r::Zero();
-    if (const auto* grain = dynamic_cast<const GrainPhys*>(partner.contact->phys.get())) {
+    const IPhys* physics = (partner.contact->isReal() ? partner.contact : partner.trial)->phys.get();
+    if (const auto* grain = dynamic_cast<const GrainPhys*>(physics)) {
         const bool report = law_ && law_->normalLaw == "report";
         const bool shears = !law_ || law_->tangentialLaw != "none";
         out.relation.coefficient = (report ? 0.5 : 1) * grain->normalCoefficient;
@@ -80,14 +81,14 @@ fl::LawContact FemWall::law_contact(size_t place, int steps) const {
             out.friction = grain->tangensOfFrictionAngle;
         else
             out.curve = &grain->effects()->curve();
-    } else if (const auto* spring = dynamic_cast<const FrictPhys*>(partner.contact->phys.get())) {
+    } else if (const auto* spring = dynamic_cast<const FrictPhys*>(physics)) {
         out.relation.linear = true;
         out.relation.coefficient = spring->kn;
         out.shear_coefficient = spring->ks;
         out.friction = spring->tangensOfFrictionAngle;
         shear = spring->shearForce;
     } else {
-        throw std::runtime_error("FemWall: a contact on it is a " + partner.contact->phys->getClassName() +
+        throw std::runtime_error("FemWall: a contact on it is a " + physics->getClassName() +
                                  ": must be a FrictPhys, whose stiffness is known");
     }
     shear = turned_into_plane(shear, normal);
@@ -104,12 +105,13 @@ void FemWall::solve(bool together) {
     const bool in_between = coupling == "implicit" && interval > 1;
     const vector<fl::WallTouch> before = together && in_between ? touches_ : vector<fl::WallTouch>();
     vector<fl::LawContact> laws;
+    laws.reserve(touches_.size());
     for (size_t i = 0; i < touches_.size(); ++i)
         laws.push_back(law_contact(i, together && in_between ? interval : 1));
     const fl::SolverOptions options{tolerance, maxSweeps};
     if (together) {
         if (coupling == "implicit")
-            solve_together(std::move(laws), options);
+            solve_together(laws, options);
         else
             exchange(laws);
         solvedStep = scene->iter;
@@ -126,7 +128,7 @@ void FemWall::solve(bool together) {
         else if (together)
             wall_->arrive(touch);
         if (coupling == "implicit")
-            wall_->solve_alone(touch, together ? law_contact(i) : laws[i], options);
+            wall_->solve_alone(touch, together && in_between ? law_contact(i) : laws[i], options);
         const Vector3r push = touch.site.axes * touch.whole_force();
         partners_[i].velocity = (touch.seen - touch.seen_before) / scene->dt;
         force -= push;
@@ -134,8 +136,8 @@ void FemWall::solve(bool together) {
     }
 }
 
-void FemWall::solve_together(vector<fl::LawContact> laws, const fl::SolverOptions& options) {
-    const fl::SolverReport report = wall_->solve(touches_, std::move(laws), options);
+void FemWall::solve_together(const vector<fl::LawContact>& laws, const fl::SolverOptions& options) {
+    const fl::SolverReport report = wall_->solve(touches_, laws, options);
     sweeps = report.sweeps;
     lastChange = report.change;
     if (report.converged)

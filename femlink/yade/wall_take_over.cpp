@@ -64,9 +64,11 @@ void FemWall::take_over(const vector<int>& face_ids, const vector<int>& spheres,
         pairs.push_back({contact, Body::byId(face_ids[i], scene).get(), &sphere});
         shear_of[{face_ids[i], sphere.id}] = shear[i];
     }
+    sort_pairs(pairs);
     find_touches(pairs);
-    make_new_contacts_real(lists_);
-    for (const Partner& partner : partners_) {
+    for (size_t i = 0; i < partners_.size(); ++i) {
+        const Partner& partner = partners_[i];
+        make(partner.contact, i, lists_);
         auto* phys = dynamic_cast<GrainPhys*>(partner.contact->phys.get());
         if (!phys)
             throw std::runtime_error("FemWall.takeOver: a contact is a " +

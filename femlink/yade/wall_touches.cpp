@@ -2,6 +2,7 @@
 // Which spheres touch the wall, and where: contacts that come, go, and pass from face to face.
 #include <femlink/yade/FemWall.hpp>
 
+#include <femlink/core/surface_contacts.hpp>
 #include <laws/yade/GrainEffectPhys.hpp>
 
 #include <core/Scene.hpp>
@@ -43,7 +44,7 @@ Real FemWall::radius_of(size_t place) const {
     return static_cast<const Sphere&>(*partners_[place].sphere->shape).radius;
 }
 
-void FemWall::find_touches(vector<FacePair>& pairs) {
+void FemWall::find_touches(const vector<FacePair>& pairs) {
     places_.clear();
     for (size_t i = 0; i < touches_.size(); ++i) {
         partners_[i].found = false;
@@ -51,9 +52,6 @@ void FemWall::find_touches(vector<FacePair>& pairs) {
             places_.emplace_back(touches_[i].sphere, i);
     }
     std::sort(places_.begin(), places_.end());
-    std::sort(pairs.begin(), pairs.end(), [](const FacePair& a, const FacePair& b) {
-        return a.sphere->id != b.sphere->id ? a.sphere->id < b.sphere->id : a.face->id < b.face->id;
-    });
     for (auto begin = pairs.begin(); begin != pairs.end();) {
         const auto end = std::find_if(begin, pairs.end(),
                                       [&](const FacePair& pair) { return pair.sphere != begin->sphere; });
@@ -72,7 +70,7 @@ void FemWall::find_touches(vector<FacePair>& pairs) {
 }
 
 /// Pairs of one sphere.
-void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>::iterator end) {
+void FemWall::find_touches_of(NextPair begin, NextPair end) {
     const Body& sphere = *begin->sphere;
     const Real radius = static_cast<const Sphere&>(*sphere.shape).radius;
     const Vector3r centre = sphere.state->pos - shift;
@@ -80,7 +78,9 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         std::lower_bound(places_.begin(), places_.end(), Place(sphere.id, 0)),
         std::upper_bound(places_.begin(), places_.end(), Place(sphere.id, nowhere)),
     };
-    vector<int> near, held;
+    auto& [near, held, found, placed] = look_;
+    near.clear();
+    held.clear();
     // A wall that is pressed in comes back as the load leaves it, so all that is inside the unloaded wall
     // takes part. One with inertia is where it is, but a contact sees it as its patch does, which beside a
     // dent is not where the surface lies: all that is no farther off than the wall has moved takes part, or
@@ -91,7 +91,7 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
         near.push_back(face);
         const size_t place = known_touch(known, *pair);
         if (place != nowhere)
-            held.push_back(face);
+            held.push_back({face, touches_[place].anchor.at});
         const auto* phys = dynamic_cast<const GrainPhys*>(pair->contact->phys.get());
         if (phys && bridge_of(*phys)) {
             reach = std::max(reach, 1.5 * radius);
@@ -101,14 +101,13 @@ void FemWall::find_touches_of(vector<FacePair>::iterator begin, vector<FacePair>
     const auto pair_of = [&](int face) {
         return std::find_if(begin, end, [&](const FacePair& pair) { return face_of(pair.face->id) == face; });
     };
-    const vector<fl::SurfaceContact> found =
-        fl::surface_contacts(wall_->surface(), positions_, near, held, centre, reach);
+    fl::find_surface_contacts(wall_->surface(), positions_, near, held, centre, reach, found);
     const auto takes_part = [&](const fl::SurfaceContact& contact, bool is_real) {
         return is_real || contact.distance < radius ||
                (continuum ? contact.distance < radius + largest_displacement_
                           : wall_->free_overlap(contact, centre, radius) > 0);
     };
-    vector<char> placed(found.size(), 0);
+    placed.assign(found.size(), 0);
     for (size_t k = 0; k < found.size(); ++k) { // where they were
         const auto pair = pair_of(found[k].face);
         const size_t place = known_touch(known, *pair);
@@ -159,6 +158,8 @@ void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePa
     touch.place = found;
     wall_->follow(touch, patch, drift);
     partner.contact = pair.contact;
+    if (partner.face != pair.face)
+        partner.trial.reset();
     partner.face = pair.face;
     partner.sphere = pair.sphere;
     partner.found = true;
@@ -166,26 +167,42 @@ void FemWall::follow(size_t place, const fl::SurfaceContact& found, const FacePa
         wall_->free_overlap(found, touch.site, pair.sphere->state->pos - shift, radius_of(place));
 }
 
-/// Their stiffness is needed before the loop would have made them. A touch may be no contact: one that has
-/// parted from the wall where that is pressed in.
-void FemWall::make_new_contacts_real(FunctorLists& lists) {
+/// Geometry and physics, as the loop would make them.
+void FemWall::make(const shared_ptr<Interaction>& contact, size_t place, FunctorLists& lists) const {
+    const Partner& partner = partners_[place];
+    const auto geometry = lists.geometry(*partner.face->shape, *partner.sphere->shape).functor;
+    const auto physics = lists.physics(*partner.face->material, *partner.sphere->material);
+    auto& shape = static_cast<FemFace&>(*partner.face->shape);
+    shape.touches.assign(1, face_touch(place));
+    geometry->go(partner.face->shape, partner.sphere->shape, *partner.face->state, *partner.sphere->state,
+                 Vector3r::Zero(), false, contact);
+    physics->go(partner.face->material, partner.sphere->material, contact);
+    contact->functorCache.geom = geometry;
+    contact->functorCache.geomExists = true;
+    contact->functorCache.phys = physics;
+    contact->iterMadeReal = contact->iterLastSeen = scene->iter;
+}
+
+/// The stiffness of a contact is needed before the loop makes it real. Many touches are none: grains that
+/// have parted from the wall where that is pressed in. What they would have is kept until they touch.
+void FemWall::find_physics(FunctorLists& lists) {
     for (size_t i = 0; i < touches_.size(); ++i) {
-        if (touches_[i].is_empty() || partners_[i].contact->isReal())
+        if (touches_[i].is_empty())
             continue;
         Partner& partner = partners_[i];
-        Interaction& contact = *partner.contact;
-        const auto geometry = lists.geometry(*partner.face->shape, *partner.sphere->shape).functor;
-        const auto physics = lists.physics(*partner.face->material, *partner.sphere->material);
-        auto& shape = static_cast<FemFace&>(*partner.face->shape);
-        shape.touches.assign(1, face_touch(i));
-        geometry->go(partner.face->shape, partner.sphere->shape, *partner.face->state, *partner.sphere->state,
-                     Vector3r::Zero(), false, partner.contact);
-        physics->go(partner.face->material, partner.sphere->material, partner.contact);
-        contact.functorCache.geom = geometry;
-        contact.functorCache.geomExists = true;
-        contact.functorCache.phys = physics;
-        contact.iterMadeReal = contact.iterLastSeen = scene->iter;
+        if (partner.contact->isReal()) {
+            partner.trial.reset();
+        } else if (!partner.trial) {
+            partner.trial.reset(new Interaction(partner.face->id, partner.sphere->id));
+            make(partner.trial, i, lists);
+        }
     }
+}
+
+/// Is it the loop's business? What a law lets go of is not, unless it is real already.
+bool FemWall::touches_wall(size_t place) const {
+    return !touches_[place].is_empty() && partners_[place].contact &&
+           (partners_[place].contact->isReal() || touches_[place].overlap() >= 0);
 }
 
 } // namespace yade

@@ -327,6 +327,30 @@ def test_two_walls_share_a_scene_and_each_minds_its_own_grain() -> None:
     np.testing.assert_allclose(together, alone, rtol=1e-10, atol=1e-12)
 
 
+def test_a_clump_that_lands_on_the_wall_comes_back_alike_on_both_paths() -> None:
+    """Two overlapping grains as one body, dropped flat; its members are in no array of the flat path."""
+    ends = []
+    for path in PATHS:
+        O.reset()
+        put_materials()
+        wall = femlink.add_wall(block(2e7), "face", cache=CACHE)
+        height = RADIUS * (1 + 1e-6)
+        grains = [
+            utils.sphere((x, 0.002, height), RADIUS, material="grain") for x in (-0.003, 0.003)
+        ]
+        clump, _ = O.bodies.appendClumped(grains, discretization=20)
+        state = O.bodies[clump].state
+        state.vel = (0, 0, -1.0)
+        put_engines([wall], path)
+        O.run(20, True)  # members take the clump's velocity with the first step
+        assert wall.contacts == 2
+        run_until(lambda: state.vel[2] > 0 and wall.contacts == 0)
+        assert state.vel.norm() == pytest.approx(1.0, rel=2e-3)  # nothing is lost but to turning
+        assert ledger.largestResidual < 1e-3 * ledger.energyInPlay  # noqa: F821
+        ends.append([*state.vel, *state.angVel])
+    np.testing.assert_allclose(ends[0], ends[1], rtol=1e-6, atol=1e-6)
+
+
 def test_moving_the_boundary_pushes_the_grain_and_the_work_is_booked() -> None:
     O.reset()
     put_materials()

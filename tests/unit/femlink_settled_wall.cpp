@@ -2,6 +2,7 @@
 // A wall that grains were settled on, and its contacts between two solutions for all of them.
 #include "femlink_flat_wall.hpp"
 
+#include <femlink/core/surface_contacts.hpp>
 #include <femlink/core/wall_contacts.hpp>
 
 #include <gtest/gtest.h>
@@ -40,8 +41,9 @@ struct Row {
             centres.emplace_back(0.012 * (i - 2) + 0.001, 0.003, radius - depth);
             WallTouch touch;
             touch.sphere = i;
-            touch.place =
-                surface_contacts(wall.surface(), wall.positions(), faces, {}, centres.back(), radius).front();
+            std::vector<SurfaceContact> found;
+            find_surface_contacts(wall.surface(), wall.positions(), faces, {}, centres.back(), radius, found);
+            touch.place = found.front();
             wall.follow(touch, patch, 0);
             touches.push_back(touch);
         }

@@ -20,6 +20,7 @@
 #include <engines/flat/yade/flat_kernels.hpp>
 #include <engines/flat/yade/functor_lists.hpp>
 #include <engines/flat/yade/general_pairs.hpp>
+#include <femlink/yade/scene_walls.hpp>
 
 #include <core/Body.hpp>
 #include <core/Scene.hpp>
@@ -162,6 +163,8 @@ private:
     vector<grainfall::flat::Motion> earlier_;
     vector<Domain> domains_;
     GeneralPairs general_;
+    vector<FacePair> face_pairs_; // those of faces of deformable walls with spheres, as of this version:
+    long face_pairs_version_ = -1;
     bool moved_ = true;
     bool booking_ = false;
     bool has_room_ = false; // has the force container places for planes and clumps?

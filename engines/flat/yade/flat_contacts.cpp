@@ -198,13 +198,17 @@ void FlatGrains::list_contacts(Scene& scene) {
 void FlatGrains::prepare_walls(Scene& scene) {
     if (!has_walls(scene))
         return;
-    vector<FacePair> pairs;
-    const int face = FemFace::getClassIndexStatic();
-    for (const GeneralPair& pair : general_.all())
-        if (pair.first->shape->getClassIndex() == face &&
-            dynamic_cast<const Sphere*>(pair.second->shape.get()))
-            pairs.push_back({pair.contact, pair.first, pair.second});
-    yade::prepare_walls(scene, std::move(pairs), functors);
+    if (face_pairs_version_ != general_.version()) {
+        face_pairs_version_ = general_.version();
+        face_pairs_.clear();
+        const int face = FemFace::getClassIndexStatic();
+        for (const GeneralPair& pair : general_.all())
+            if (pair.first->shape->getClassIndex() == face &&
+                dynamic_cast<const Sphere*>(pair.second->shape.get()))
+                face_pairs_.push_back({pair.contact, pair.first, pair.second});
+        sort_pairs(face_pairs_);
+    }
+    yade::prepare_walls(scene, face_pairs_, functors);
 }
 
 void FlatGrains::settle_books() {

@@ -266,6 +266,8 @@ void FlatGrains::list_general(const gf::CellTable& cells, Reach reach) {
 }
 
 void FlatGrains::add_spheres_near(const Roamer& roamer, const gf::CellTable& cells) {
+    if (bodies_.spheres() == 0)
+        return; // no cells either
     const auto visit = [&](int from, int to) {
         const int end = cells.starts[static_cast<size_t>(to)];
         for (int i = cells.starts[static_cast<size_t>(from)]; i < end; ++i) {

@@ -31,6 +31,7 @@ void GeneralPairs::adopt(const shared_ptr<Interaction>& contact, Scene& scene, F
     const Found<IGeomFunctor> found = functors.geometry(*first.shape, *second.shape);
     if (!found.functor || found.swapped)
         return; // what made it is gone: it stays as it is
+    ++version_;
     places_[key(first, second)] = pairs_.size();
     pairs_.push_back({contact, &first, &second, found.functor, true});
 }
@@ -38,6 +39,7 @@ void GeneralPairs::adopt(const shared_ptr<Interaction>& contact, Scene& scene, F
 void GeneralPairs::forget_those_apart() {
     const auto apart = [](const GeneralPair& pair) { return !pair.contact->isReal(); };
     pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), apart), pairs_.end());
+    ++version_;
     places_.clear();
     for (size_t i = 0; i < pairs_.size(); ++i)
         places_[key(*pairs_[i].first, *pairs_[i].second)] = i;
@@ -55,6 +57,7 @@ void GeneralPairs::add(Body& one, Body& other, FunctorLists& functors) {
         return;
     if (found.swapped)
         std::swap(first, second);
+    ++version_;
     places_[key(one, other)] = pairs_.size();
     pairs_.push_back(
         {shared_ptr<Interaction>(new Interaction(first->id, second->id)), first, second, found.functor});

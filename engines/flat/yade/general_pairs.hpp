@@ -23,9 +23,14 @@ struct GeneralPair {
 
 class GeneralPairs {
 public:
-    void clear() { pairs_.clear(); }
+    void clear() {
+        pairs_.clear();
+        ++version_;
+    }
     size_t size() const { return pairs_.size(); }
     const vector<GeneralPair>& all() const { return pairs_; }
+    /// Another number whenever there are other pairs.
+    long version() const { return version_; }
 
     /// Takes a contact that is in the scene already.
     void adopt(const shared_ptr<Interaction>& contact, Scene& scene, FunctorLists& functors);
@@ -38,6 +43,7 @@ public:
 
 private:
     vector<GeneralPair> pairs_;
+    long version_ = 0;
     std::map<std::pair<Body::id_t, Body::id_t>, size_t> places_;
 
     static void step(GeneralPair& pair, Scene& scene, FunctorLists& functors);
