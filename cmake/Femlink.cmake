@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The continuum of the deformable wall: a library over deal.II and CHOLMOD. Without deal.II, walls cannot be
-# built here, but those in files can be used: that part, femlink/core, is headers.
+# built here, but those in files can be used: that part, femlink/core, needs LAPACK and BLAS alone.
 
 set(GRAINFALL_WITH_DEALII "auto" CACHE STRING "build the continuum: auto (if deal.II is found), ON or OFF")
 set_property(CACHE GRAINFALL_WITH_DEALII PROPERTY STRINGS auto ON OFF)
