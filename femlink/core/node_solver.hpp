@@ -36,8 +36,8 @@ Eigen::Matrix3d contact_stiffness(const Contact& contact, const Eigen::Matrix3d&
     const double overlap = contact.free_overlap - there[0];
     if (!(force[0] > 0) || !(overlap > 0) || !(own(0, 0) > 0))
         return stiffness;
-    // Infinite where a dashpot starts. Beyond this it no longer matters, even of many contacts on one node, and
-    // single precision would lose the wall beside it.
+    // Infinite where a dashpot starts. Beyond this it no longer matters, even of many contacts on one node,
+    // and single precision would lose the wall beside it.
     const double enough = 1e6 / own(0, 0);
     stiffness(0, 0) = std::clamp(contact.relation.stiffness(overlap), 0.0, enough);
     const double limit = contact.shear_limit(force[0]);
