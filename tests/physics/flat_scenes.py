@@ -62,6 +62,17 @@ def pack(material: Any, count: int = 4, pitch: float = 1.96) -> None:
     O.bodies.append(utils.wall(-1.1 * RADIUS, axis=2, sense=0, material=material))
 
 
+def add_clump(place: tuple[float, float, float]) -> int:
+    """Two unequal spheres that overlap, as one body; its id."""
+    first = np.array(place)
+    grains = [
+        utils.sphere(tuple(first + shift), radius, material=O.materials[0])
+        for shift, radius in (((0.0, 0, 0), 0.004), ((0.004, 0.001, 0.002), 0.003))
+    ]
+    clump, _ = O.bodies.appendClumped(grains, discretization=20)
+    return clump
+
+
 def engines(
     flat: bool,
     geometry: Sequence[Any] = (),

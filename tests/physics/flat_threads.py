@@ -66,8 +66,15 @@ def changing_bodies() -> dict[str, Any]:
     return run(STEPS + 50)
 
 
-def saved_in_the_middle() -> dict[str, Any]:
+def build_with_clumps() -> None:
+    """Moist, with partial slip; two clumps have come down among the grains when half of the steps are done."""
     build({"tangentialLaw": "mindlin-deresiewicz"}, **WET)
+    for x in (0.01, 0.03):
+        O.bodies[scenes.add_clump((x, 0.02, 0.059))].state.vel = (0.1, 0, -1)
+
+
+def saved_in_the_middle() -> dict[str, Any]:
+    build_with_clumps()
     run(STEPS // 2)
     file = sys.argv[2] + ".middle.yade.gz"
     O.save(file)
@@ -78,7 +85,7 @@ def saved_in_the_middle() -> dict[str, Any]:
 
 def kept_on() -> dict[str, Any]:
     """The same, never saved."""
-    build({"tangentialLaw": "mindlin-deresiewicz"}, **WET)
+    build_with_clumps()
     return run(STEPS)
 
 

@@ -15,7 +15,7 @@ import flat_scenes as scenes
 import numpy as np
 import pytest
 import yade.wrapper as w
-from flat_scenes import differences, engines, on_both_paths, pack, sand
+from flat_scenes import add_clump, differences, engines, on_both_paths, pack, sand
 from grainfall.projectiles import projectile
 from yade import O, utils
 
@@ -131,17 +131,6 @@ def test_a_projectile_meets_the_grains_alike_on_both_paths():
     flat, general = on_both_paths(build_drop, 300)
     assert_equal((flat, general), MANY_STEPS)
     assert np.abs(general["force"][-1]).max() > 0
-
-
-def add_clump(place: tuple[float, float, float]) -> int:
-    """Two unequal spheres that overlap, as one body; its id."""
-    first = np.array(place)
-    grains = [
-        utils.sphere(tuple(first + shift), radius, material=O.materials[0])
-        for shift, radius in (((0.0, 0, 0), 0.004), ((0.004, 0.001, 0.002), 0.003))
-    ]
-    clump, _ = O.bodies.appendClumped(grains, discretization=20)
-    return clump
 
 
 @pytest.mark.parametrize("exact", [True, False])

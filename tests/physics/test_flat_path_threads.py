@@ -89,6 +89,7 @@ def test_bodies_that_come_and_go_are_obeyed_with_two_threads(runs):
 
 
 def test_impacts_saved_half_way_go_on_with_two_threads_as_if_never_saved(runs):
-    """Slip histories and bridges among what is saved."""
+    """Slip histories, bridges and clumps among what is saved."""
+    assert (runs[1]["kept on"]["ids"] >= 6**3 + 5).any()  # of clumps
     assert_equal(runs[2]["kept on"], runs[2]["saved"], MANY_STEPS)
     assert_equal(runs[1]["kept on"], runs[2]["saved"], MANY_STEPS)
