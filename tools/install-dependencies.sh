@@ -8,7 +8,7 @@ run_packages=(yade python3-numpy python3-scipy python3-matplotlib python3-h5py p
 build_packages=(g++ cmake ninja-build make git libeigen3-dev libboost-python-dev libboost-serialization-dev
                 libboost-log-dev libboost-thread-dev libboost-system-dev libboost-filesystem-dev
                 libboost-iostreams-dev python3-dev pybind11-dev libdeal.ii-dev liblapack-dev libblas-dev libopenblas0-pthread)
-test_packages=(libgtest-dev python3-pytest python3-pyelftools valgrind clang-format black flake8 chromium)
+test_packages=(libgtest-dev python3-pytest python3-pyelftools python3-vtk9 valgrind clang-format black flake8 chromium)
 
 if [ -r /etc/os-release ] && ! grep -q 'VERSION_ID="12"' /etc/os-release; then
     echo "warning: Grainfall is verified on Debian 12 only; this is $(. /etc/os-release && echo "$PRETTY_NAME")" >&2

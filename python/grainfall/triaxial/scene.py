@@ -147,9 +147,7 @@ def unbalanced_force(sample: Sample) -> float:
         for i in range(len(sample.radii))
     ]
     contacts = [
-        (contact.phys.normalForce + contact.phys.shearForce).norm()
-        for contact in O.interactions
-        if contact.isReal
+        (contact.phys.normalForce + contact.phys.shearForce).norm() for contact in _contacts()
     ]
     mean_contact = float(np.mean(contacts)) if contacts else 0.0
     return float(np.mean(resultants)) / mean_contact if mean_contact else math.inf
@@ -182,11 +180,15 @@ def suction(sample: Sample, membrane: Membrane) -> float:
     return -virial / 3 / volume(sample, membrane)
 
 
+def _contacts() -> list[Any]:
+    """Real contacts in the order of their bodies: that of O.interactions depends on when somebody looked."""
+    real = (contact for contact in O.interactions if contact.isReal)
+    return sorted(real, key=lambda c: (min(c.id1, c.id2), max(c.id1, c.id2)))
+
+
 def _branches(sample: Sample) -> Iterator[tuple[Any, np.ndarray]]:
     """Each contact with its branch [m] from body 1 to body 2, as its force acts."""
-    for contact in O.interactions:
-        if not contact.isReal:
-            continue
+    for contact in _contacts():
         ends = [
             np.array(O.bodies[i].state.pos if i < len(sample.radii) else contact.geom.contactPoint)
             for i in (contact.id1, contact.id2)
@@ -212,9 +214,7 @@ def stable_step(sample: Sample) -> float:
     """
     count = len(sample.radii)
     along, about = np.zeros((count, 3)), np.zeros((count, 3))
-    for contact in O.interactions:
-        if not contact.isReal:
-            continue
+    for contact in _contacts():
         square = np.array(contact.geom.normal) ** 2
         normal, shear = contact.phys.kn, contact.phys.ks
         for grain in (contact.id1, contact.id2):
