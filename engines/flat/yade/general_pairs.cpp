@@ -3,6 +3,7 @@
 
 #include <core/InteractionContainer.hpp>
 #include <core/State.hpp>
+#include <pkg/common/Sphere.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -45,25 +46,40 @@ void GeneralPairs::forget_those_apart() {
         places_[key(*pairs_[i].first, *pairs_[i].second)] = i;
 }
 
-void GeneralPairs::add(Body& one, Body& other, FunctorLists& functors) {
-    if (places_.count(key(one, other)))
+bool GeneralPair::is_apart() const {
+    if (!sphere || contact->isReal() || !bounded->bound)
+        return false;
+    const Vector3r& centre = sphere->state->pos;
+    const Real radius = static_cast<const Sphere&>(*sphere->shape).radius;
+    const Vector3r outside = (bounded->bound->min - centre).cwiseMax(centre - bounded->bound->max);
+    return outside.maxCoeff() > radius;
+}
+
+void GeneralPairs::add(Body& bounded, Body& other, FunctorLists& functors) {
+    if (places_.count(key(bounded, other)))
         return;
-    Body* first = &one;
+    Body* first = &bounded;
     Body* second = &other;
     if (first->id > second->id)
         std::swap(first, second);
     const Found<IGeomFunctor> found = functors.geometry(*first->shape, *second->shape);
-    if (!found.functor || !may_collide(one, other, functors.avoid_self_interaction))
+    if (!found.functor || !may_collide(bounded, other, functors.avoid_self_interaction))
         return;
     if (found.swapped)
         std::swap(first, second);
     ++version_;
-    places_[key(one, other)] = pairs_.size();
+    places_[key(bounded, other)] = pairs_.size();
     pairs_.push_back(
         {shared_ptr<Interaction>(new Interaction(first->id, second->id)), first, second, found.functor});
+    if (dynamic_cast<const Sphere*>(other.shape.get())) {
+        pairs_.back().bounded = &bounded;
+        pairs_.back().sphere = &other;
+    }
 }
 
 void GeneralPairs::step(GeneralPair& pair, Scene& scene, FunctorLists& functors) {
+    if (pair.is_apart())
+        return;
     const shared_ptr<Interaction>& contact = pair.contact;
     if (!pair.geometry->go(pair.first->shape, pair.second->shape, *pair.first->state, *pair.second->state,
                            Vector3r::Zero(), false, contact)) {

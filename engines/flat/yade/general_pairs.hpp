@@ -19,6 +19,12 @@ struct GeneralPair {
     Body* second;
     shared_ptr<IGeomFunctor> geometry;
     bool in_scene = false; // is the contact in the scene's container?
+    // Where one is a sphere, and the other a body whose bound is that of this step.
+    const Body* bounded = nullptr;
+    const Body* sphere = nullptr;
+
+    /// Certainly no contact, and quicker to see than by the geometry functor.
+    bool is_apart() const;
 };
 
 class GeneralPairs {
@@ -36,7 +42,8 @@ public:
     void adopt(const shared_ptr<Interaction>& contact, Scene& scene, FunctorLists& functors);
     /// Keeps what is real; `add` then completes the list.
     void forget_those_apart();
-    void add(Body& first, Body& second, FunctorLists& functors);
+    /// `bounded`: its bound is kept up to date.
+    void add(Body& bounded, Body& other, FunctorLists& functors);
 
     /// Forces of this step, into scene.forces.
     void act(Scene& scene, FunctorLists& functors);
