@@ -245,8 +245,10 @@ void FlatGrains::load_planes(Scene& scene) {
             scene.forces.addTorque(bodies_.ids[i], sum.torque);
         }
     }
+    if (has_room_)
+        return;
     for (const Body* body : others_)
-        if (!has_room_ && body->isClump())
+        if (body->isClump())
             scene.forces.addForce(body->id, Vector3r::Zero());
     has_room_ = true;
 }
