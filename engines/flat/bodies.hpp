@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Bodies of the flat path in packed arrays: spheres first, sorted in space, then planes.
+// Bodies of the flat path in packed arrays: spheres first, sorted in space, then the obstacles that they
+// touch.
 //
 // What the contact loop reads of a body fits one cache line for its place and one for its motion; what only
 // the integrator needs stands apart.
@@ -11,13 +12,19 @@
 #include <cstddef>
 #include <vector>
 
+namespace grainfall::geometry {
+class Profile;
+}
+
 namespace grainfall::flat {
 
 using Vector = Eigen::Vector3d;
 
 struct Place {
     Vector centre;
-    double radius; // m; of a plane: its radius in the shear kinematics over that of the sphere it touches
+    // m; of a plane: its radius in the shear kinematics over that of the sphere it touches; else of an
+    // obstacle without meaning
+    double radius;
 };
 
 struct alignas(64) Motion {
@@ -31,10 +38,21 @@ struct alignas(64) Load {
     Vector torque = Vector::Zero();
 };
 
-// A plane normal to an axis. `sense` 0: met from both sides; +1, -1: its inner side.
-struct Plane {
-    int axis;
-    int sense;
+// What a sphere can touch.
+enum class Partner { sphere, plane, box, solid };
+
+// A body that spheres touch and whose motion is not computed here.
+struct Obstacle {
+    Partner kind = Partner::plane;
+    // A plane is normal to an axis. `sense` 0: met from both sides; +1, -1: its inner side.
+    int axis = 0;
+    int sense = 0;
+    // A box and a solid of revolution (about its third axis) have axes of their own.
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    Vector half_edges = Vector::Zero(); // m, of a box
+    const geometry::Profile* profile = nullptr;
+    double edge_radius = 0;          // m, of a solid's edges; 0: that of the sphere which touches them
+    double flat_radius_factor = 1e8; // radius of a solid's flat places over the sphere's
 };
 
 // What keeps a sphere from moving freely.
@@ -52,13 +70,16 @@ struct Bodies {
     // Spheres only.
     std::vector<Eigen::Quaterniond, Eigen::aligned_allocator<Eigen::Quaterniond>> orientations;
     std::vector<Inertia> inertias;
-    // Planes only.
-    std::vector<Plane> planes;
+    // Obstacles only.
+    std::vector<Obstacle> obstacles;
 
     int spheres() const { return static_cast<int>(inertias.size()); }
     int count() const { return static_cast<int>(ids.size()); }
-    bool is_plane(int index) const { return index >= spheres(); }
-    const Plane& plane(int index) const { return planes[static_cast<std::size_t>(index - spheres())]; }
+    bool is_obstacle(int index) const { return index >= spheres(); }
+    const Obstacle& obstacle(int index) const {
+        return obstacles[static_cast<std::size_t>(index - spheres())];
+    }
+    Partner kind(int index) const { return is_obstacle(index) ? obstacle(index).kind : Partner::sphere; }
 };
 
 } // namespace grainfall::flat

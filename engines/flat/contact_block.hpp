@@ -6,6 +6,7 @@
 #pragma once
 
 #include <engines/flat/contacts.hpp>
+#include <engines/flat/touch.hpp>
 
 #include <laws/energy.hpp>
 #include <laws/sphere_kinematics.hpp>
@@ -35,13 +36,6 @@ template <class Scalar, class Value>
     return {vectors.x.pack[lane], vectors.y.pack[lane], vectors.z.pack[lane]};
 }
 
-// The contact point lies at arm1 n from the centre of a first sphere, at -arm2 n from that of the second.
-template <class Scalar>
-struct TouchAt {
-    laws::TouchOf<Scalar> touch;
-    Scalar arm1, arm2;
-};
-
 template <class Scalar>
 [[gnu::always_inline]] inline TouchAt<double> lane_of(const TouchAt<Scalar>& at, int lane) {
     using laws::lane_of;
@@ -68,23 +62,6 @@ inline laws::ContactForce lane_of(const laws::ContactForceOf<Scalar>& force, int
     return {lane_of(force.normal, lane), flat::lane_of(force.shear, lane),
             lane_of(force.normal_stiffness, lane), lane_of(force.shear_stiffness, lane),
             lane_of(force.sliding, lane)};
-}
-
-// A plane (index `plane`) and a sphere.
-[[gnu::always_inline]] inline TouchAt<double> plane_touch(const Bodies& bodies, int plane, int sphere) {
-    const Plane& wall = bodies.plane(plane);
-    const Place& at = bodies.places[static_cast<std::size_t>(plane)];
-    const Place& ball = bodies.places[static_cast<std::size_t>(sphere)];
-    const double distance = ball.centre[wall.axis] - at.centre[wall.axis];
-    TouchAt<double> result;
-    result.touch.normal = Vector::Zero();
-    result.touch.normal[wall.axis] = wall.sense ? wall.sense : distance > 0 ? 1 : -1;
-    result.touch.overlap = ball.radius - std::abs(distance);
-    result.touch.radius1 = at.radius * ball.radius;
-    result.touch.radius2 = ball.radius;
-    result.arm1 = 0;
-    result.arm2 = distance * result.touch.normal[wall.axis];
-    return result;
 }
 
 template <class Scalar>
@@ -122,19 +99,16 @@ public:
         return result;
     }
 
-    [[gnu::noinline]] TouchAt<Scalar> touch_of_planes() const {
-        TouchAt<double> each[width];
-        for (int lane = 0; lane < width; ++lane)
-            each[lane] = plane_touch(bodies_, state(lane).first, state(lane).second);
-        TouchAt<Scalar> result;
-        result.touch.normal =
-            packed_vector<Scalar>([&](int lane) -> const Vector& { return each[lane].touch.normal; });
-        result.touch.overlap = laws::packed<Scalar>([&](int lane) { return each[lane].touch.overlap; });
-        result.touch.radius1 = laws::packed<Scalar>([&](int lane) { return each[lane].touch.radius1; });
-        result.touch.radius2 = laws::packed<Scalar>([&](int lane) { return each[lane].touch.radius2; });
-        result.arm1 = 0;
-        result.arm2 = laws::packed<Scalar>([&](int lane) { return each[lane].arm2; });
-        return result;
+    // Of spheres with obstacles of one kind.
+    [[gnu::noinline]] TouchAt<Scalar> touch_of_obstacles(Partner kind) const {
+        switch (kind) {
+        case Partner::box:
+            return touch_each(&touch_of_box);
+        case Partner::solid:
+            return touch_each(&touch_of_solid);
+        default:
+            return touch_each(&touch_of_plane);
+        }
     }
 
     // Lanes without a contact of their own.
@@ -143,8 +117,8 @@ public:
                Scalar(static_cast<double>(last_));
     }
 
-    // From the centres of the planes, wherever these are, to the contact points.
-    [[gnu::noinline]] VectorOf<Scalar> plane_levers(const TouchAt<Scalar>& at) const {
+    // From the centres of the obstacles, wherever these are, to the contact points.
+    [[gnu::noinline]] VectorOf<Scalar> obstacle_levers(const TouchAt<Scalar>& at) const {
         return packed_vector<Scalar>([&](int lane) -> Vector {
             const TouchAt<double> here = flat::lane_of(at, lane);
             return bodies_.places[second(lane)].centre - here.arm2 * here.touch.normal -
@@ -174,6 +148,33 @@ public:
     // Of the second bodies seen from the first.
     [[gnu::always_inline]] VectorOf<Scalar> velocity() const {
         return of_second(&Motion::velocity) - of_first(&Motion::velocity);
+    }
+    // The same at the contact points.
+    [[gnu::always_inline]] VectorOf<Scalar> velocity_at_contact(const TouchAt<Scalar>& at,
+                                                                Partner kind) const {
+        const VectorOf<Scalar> lever = kind == Partner::sphere ? VectorOf<Scalar>(at.arm1 * at.touch.normal)
+                                                               : VectorOf<Scalar>(obstacle_levers(at));
+        return velocity() - at.arm2 * spin2().cross(at.touch.normal) - spin1().cross(lever);
+    }
+
+    // m/s, along the normals. The contact points of spheres and planes have no arm across them.
+    [[gnu::always_inline]] Scalar normal_velocity(const TouchAt<Scalar>& at, Partner kind) const {
+        return at.touch.normal.dot(has_surface_motion(kind) ? velocity_at_contact(at, kind) : velocity());
+    }
+
+    // YADE reckons the shear on boxes and solids at the contact point itself; as for spheres only where a
+    // sphere's centre is within a box.
+    [[gnu::noinline]] void put_surface_motion(const TouchAt<Scalar>& at, Partner kind,
+                                              laws::ContactGeometryOf<Scalar>& geometry) const {
+        const VectorOf<Scalar> velocity = velocity_at_contact(at, kind);
+        const Scalar approach = velocity.dot(at.touch.normal);
+        const VectorOf<Scalar> slip = Scalar(geometry.time_step) * (velocity - approach * at.touch.normal);
+        geometry.normal_velocity = approach;
+        geometry.shear_increment = packed_vector<Scalar>([&](int lane) -> Vector {
+            const TouchAt<double> here = flat::lane_of(at, lane);
+            const bool within = kind == Partner::box && here.touch.overlap >= here.touch.radius2;
+            return flat::lane_of(within ? geometry.shear_increment : slip, lane);
+        });
     }
 
     [[gnu::always_inline]] void recall(laws::ContactMemoryOf<Scalar>& memory) const {
@@ -237,6 +238,24 @@ public:
     }
 
 private:
+    using TouchOfObstacle = TouchAt<double> (*)(const Obstacle&, const Place&, const Place&);
+
+    [[gnu::always_inline]] TouchAt<Scalar> touch_each(TouchOfObstacle touch) const {
+        TouchAt<double> each[width];
+        for (int lane = 0; lane < width; ++lane)
+            each[lane] = touch(bodies_.obstacle(state(lane).first), bodies_.places[first(lane)],
+                               bodies_.places[second(lane)]);
+        TouchAt<Scalar> result;
+        result.touch.normal =
+            packed_vector<Scalar>([&](int lane) -> const Vector& { return each[lane].touch.normal; });
+        result.touch.overlap = laws::packed<Scalar>([&](int lane) { return each[lane].touch.overlap; });
+        result.touch.radius1 = laws::packed<Scalar>([&](int lane) { return each[lane].touch.radius1; });
+        result.touch.radius2 = laws::packed<Scalar>([&](int lane) { return each[lane].touch.radius2; });
+        result.arm1 = 0;
+        result.arm2 = laws::packed<Scalar>([&](int lane) { return each[lane].arm2; });
+        return result;
+    }
+
     const Bodies& bodies_;
     const ContactState* states_;
     std::size_t begin_;

@@ -14,7 +14,7 @@ namespace grainfall::flat {
 
 // What changes from step to step: one cache line.
 struct alignas(64) ContactState {
-    int first, second; // indices into Bodies; a plane is always the first
+    int first, second; // indices into Bodies; an obstacle is always the first
     Vector normal;     // of the last step
     Vector shear_force;
     double shear_stiffness; // 0 before the first step
@@ -36,17 +36,18 @@ struct DashpotMemory {
     Vector shear = Vector::Zero();
 };
 
-// Contacts of one class, all of spheres or all on planes. Owner: what else belongs to a contact, for the
+// Contacts of one class of spheres with one kind of partner. Owner: what else belongs to a contact, for the
 // caller.
 template <class Owner>
 struct Segment {
     int contact_class = 0;
-    bool on_planes = false;
+    Partner partner = Partner::sphere;
     std::vector<ContactState> states;
     std::vector<ContactConstants> constants;
     std::vector<DashpotMemory> dashpots; // empty where energies are not booked
     std::vector<Owner> owners;
 
+    bool on_obstacles() const { return partner != Partner::sphere; }
     std::size_t size() const { return states.size(); }
 
     void add(const ContactState& state, const ContactConstants& constant, Owner owner,

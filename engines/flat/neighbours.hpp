@@ -6,7 +6,7 @@
 // search is due: one flying grain does not make the list of a whole bed longer, nor shorter-lived.
 #pragma once
 
-#include <engines/flat/bodies.hpp>
+#include <engines/flat/touch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace grainfall::flat {
 
 struct Pair {
-    int first, second; // second > first, or first a plane
+    int first, second; // second > first, or first an obstacle
 };
 
 // Cells no smaller than the reach of any sphere, in the order of their numbers along the longest axis last,
@@ -155,13 +155,30 @@ struct CellTable {
     }
 };
 
-inline double gap(const Place& a, const Place& b) {
-    return (a.centre - b.centre).norm() - a.radius - b.radius;
+// m/s, at most, of an obstacle's surface because it turns. The surface of a solid of revolution does not move
+// when it spins about its axis.
+inline double turning_speed(const Obstacle& obstacle, const Vector& spin) {
+    switch (obstacle.kind) {
+    case Partner::box:
+        return obstacle.half_edges.norm() * spin.norm();
+    case Partner::solid:
+        return obstacle.profile->reach() * spin.cross(obstacle.axes.col(2)).norm();
+    default:
+        return 0;
+    }
 }
 
-// m, distance of a sphere's surface from a plane; negative when they overlap.
-inline double gap(const Plane& plane, const Place& at, const Place& sphere) {
-    return std::abs(sphere.centre[plane.axis] - at.centre[plane.axis]) - sphere.radius;
+// m, at most, that an obstacle's surface has gone by turning.
+inline double turned_by(const Obstacle& obstacle, const Eigen::Quaterniond& before,
+                        const Eigen::Quaterniond& now) {
+    switch (obstacle.kind) {
+    case Partner::box:
+        return 2 * obstacle.half_edges.norm() * (before.conjugate() * now).vec().norm();
+    case Partner::solid:
+        return obstacle.profile->reach() * (now * Vector::UnitZ() - before * Vector::UnitZ()).norm();
+    default:
+        return 0;
+    }
 }
 
 } // namespace grainfall::flat

@@ -45,8 +45,9 @@ def sand(**changes: Any) -> Any:
     return GrainMat(**{**attributes, **changes})
 
 
-def pack(material: Any, count: int = 4, pitch: float = 1.96) -> None:
-    """count^3 grains of three sizes, a little out of order, over the floor of a box of five walls."""
+def pack(material: Any, count: int = 4, pitch: float = 1.96, boxes: bool = False) -> None:
+    """count^3 grains of three sizes, a little out of order, over the floor of a box of five walls, or of five
+    boxes with the same inner faces."""
     O.materials.append(material)
     step = pitch * RADIUS
     for i in range(count**3):
@@ -56,10 +57,16 @@ def pack(material: Any, count: int = 4, pitch: float = 1.96) -> None:
         body = utils.sphere(place + (shift, -shift, shift), radius, material=material)
         body.state.vel = (0.2 * math.sin(3.0 * i), 0.2 * math.cos(5.0 * i), 0)
         O.bodies.append(body)
-    for axis in (0, 1):
-        for position in (-1.1 * RADIUS, (count - 1) * step + 1.1 * RADIUS):
+    low, high = -1.1 * RADIUS, (count - 1) * step + 1.1 * RADIUS
+    for axis, position in ((0, low), (0, high), (1, low), (1, high), (2, low)):
+        if boxes:
+            half = np.full(3, 0.7 * (high - low))
+            half[axis] = 2 * RADIUS
+            centre = np.full(3, 0.5 * (low + high))
+            centre[axis] = position + (half[axis] if position > 0 else -half[axis])
+            O.bodies.append(utils.box(tuple(centre), tuple(half), fixed=True, material=material))
+        else:
             O.bodies.append(utils.wall(position, axis=axis, sense=0, material=material))
-    O.bodies.append(utils.wall(-1.1 * RADIUS, axis=2, sense=0, material=material))
 
 
 def add_clump(place: tuple[float, float, float]) -> int:
@@ -98,6 +105,12 @@ def engines(
         *more,
     ]
     O.dt = 1e-5
+
+
+def box_engines(flat: bool, **changes: Any) -> None:
+    """The same with boxes among the grains."""
+    w = yade.wrapper
+    engines(flat, [w.Ig2_Box_Sphere_ScGeom()], [w.Bo1_Box_Aabb()], **changes)
 
 
 def projectile_engines(flat: bool, more: Sequence[Any] = ()) -> None:

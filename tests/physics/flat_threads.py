@@ -17,6 +17,7 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
 
 import flat_scenes as scenes  # noqa: E402
 import yade.wrapper as w  # noqa: E402
+from grainfall.projectiles import make_projectile, projectile  # noqa: E402
 from yade import O, utils  # noqa: E402
 
 STEPS = 300
@@ -89,6 +90,30 @@ def kept_on() -> dict[str, Any]:
     return run(STEPS)
 
 
+def obstacles() -> dict[str, Any]:
+    """A projectile and a turning plate among moist grains in boxes; the load on the projectile is summed up."""
+    O.reset()
+    scenes.pack(scenes.sand(**WET), count=6, boxes=True)
+    steel = scenes.sand(label="steel", young=1e9)
+    shell = O.bodies.append(
+        make_projectile(
+            projectile("m70-half"), nose_at=(0.02, 0.02, 0.056), velocity=(0, 0, -2), material=steel
+        )
+    )
+    plate = utils.box((0.04, 0.03, 0.06), (0.01, 0.01, 0.002), fixed=True, material=O.materials[0])
+    O.bodies.append(plate)
+    plate.state.vel, plate.state.angVel = (0, 0, -2), (20, 10, 30)
+    scenes.engines(
+        True,
+        [w.Ig2_Box_Sphere_ScGeom(), w.Ig2_SolidOfRevolution_Sphere_ScGeom()],
+        [w.Bo1_Box_Aabb(), w.Bo1_SolidOfRevolution_Aabb()],
+        [w.ProjectileLoad(body=shell)],
+    )
+    state = run(STEPS)
+    load = O.engines[-1]
+    return {**state, "impulse": load.noseImpulse.norm() + load.shaftImpulse.norm()}
+
+
 def works_of_gravity() -> list[float]:
     """Of the same pack, on YADE's own loop, twenty times [J]."""
     works = []
@@ -108,6 +133,7 @@ states = {
     "changing bodies": changing_bodies(),
     "saved": saved_in_the_middle(),
     "kept on": kept_on(),
+    "obstacles": obstacles(),
     "works of gravity": works_of_gravity(),
 }
 Path(sys.argv[2]).write_bytes(pickle.dumps({"threads": O.numThreads, **states}))

@@ -88,6 +88,12 @@ def test_bodies_that_come_and_go_are_obeyed_with_two_threads(runs):
     assert_equal(one, two, MANY_STEPS)
 
 
+def test_boxes_and_a_projectile_meet_grains_with_two_threads_as_with_one(runs):
+    one, two = (runs[threads]["obstacles"] for threads in (1, 2))
+    assert_equal(one, two, MANY_STEPS)
+    assert two["impulse"] == pytest.approx(one["impulse"], rel=MANY_STEPS) and one["impulse"] > 0
+
+
 def test_impacts_saved_half_way_go_on_with_two_threads_as_if_never_saved(runs):
     """Slip histories, bridges and clumps among what is saved."""
     assert (runs[1]["kept on"]["ids"] >= 6**3 + 5).any()  # of clumps

@@ -105,8 +105,10 @@ TEST(NeighboursOfABox, hold_every_sphere_that_reaches_into_it) {
 
 TEST(GapOfSphereAndPlane, is_the_same_from_both_sides) {
     const Place plane{{0, 0, 1}, 1};
-    EXPECT_DOUBLE_EQ(gap(Plane{2, 0}, plane, {{5, 5, 1.75}, 0.5}), 0.25);
-    EXPECT_DOUBLE_EQ(gap(Plane{2, 0}, plane, {{5, 5, 0.25}, 0.5}), 0.25);
+    Obstacle wall;
+    wall.axis = 2;
+    EXPECT_DOUBLE_EQ(gap(wall, plane, {{5, 5, 1.75}, 0.5}, 1), 0.25);
+    EXPECT_DOUBLE_EQ(gap(wall, plane, {{5, 5, 0.25}, 0.5}, 1), 0.25);
 }
 
 } // namespace

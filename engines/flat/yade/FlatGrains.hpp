@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A scene's grains and their contacts in packed arrays, and the way from YADE's objects to them and back.
 //
-// Spheres and walls of GrainMat that meet by YADE's usual geometry are `flat`: their motion and contacts live
-// here, and YADE's State, forces and interactions are written when someone is about to look (publish). What
-// else is in the scene keeps YADE's own way, contact by contact (general pairs). Every contact has its
-// Interaction from the step in which it is made, but the scene's container takes it in, and lets go of those
-// whose bodies have parted, only when contacts are published: what comes and goes between two looks never
-// passes through the container, and each thread makes the contacts of its own spheres.
+// Spheres of GrainMat, and the obstacles (walls, boxes, solids of revolution) of GrainMat that they meet by
+// the usual geometry, are `flat`: the motion of the spheres and all these contacts live here, and YADE's
+// State, forces and interactions are written when someone is about to look (publish). What else is in the
+// scene keeps YADE's own way, contact by contact (general pairs). Every contact has its Interaction from the
+// step in which it is made, but the scene's container takes it in, and lets go of those whose bodies have
+// parted, only when contacts are published: what comes and goes between two looks never passes through the
+// container, and each thread makes the contacts of its own spheres.
 //
 //   take_over  YADE's objects -> arrays        after Python or a foreign engine may have changed them
 //   search     sorts the spheres in space, lists the pairs that are near each other
@@ -26,6 +27,7 @@
 #include <core/Scene.hpp>
 
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,20 +43,21 @@ public:
         int begin = 0, end = 0;
         int loaded_end = 0; // one past the last sphere that its contacts can push
         vector<FlatContacts> segments;
-        vector<grainfall::flat::Pair> near;        // of spheres
-        vector<grainfall::flat::Pair> near_planes; // a plane and a sphere
-        vector<grainfall::flat::Load> loads;       // of all bodies
+        vector<grainfall::flat::Pair> near;           // of spheres
+        vector<grainfall::flat::Pair> near_obstacles; // an obstacle and a sphere
+        vector<grainfall::flat::Load> loads;          // of all bodies
         FlatBook book;
-        vector<vector<size_t>> opened;            // by segment
-        vector<size_t> touching, touching_planes; // of `near` and `near_planes`
-        vector<shared_ptr<Interaction>> parted;   // contacts that only the scene's container still holds
-        long born_now = 0, parted_now = 0;        // contacts made and lost in this step
+        vector<vector<size_t>> opened;               // by segment
+        vector<size_t> touching, touching_obstacles; // of `near` and `near_obstacles`
+        // Contacts that only the scene's container still holds; those which it must let go of at once.
+        vector<shared_ptr<Interaction>> parted, parted_exposed;
+        long born_now = 0, parted_now = 0; // contacts made and lost in this step
         // Two spheres as the geometry functor is to see them; their own State may be another thread's too.
         shared_ptr<State> first_state = boost::make_shared<State>(),
                           second_state = boost::make_shared<State>();
         std::exception_ptr failure; // of this thread in this step
 
-        FlatContacts& segment(int contact_class, bool on_planes);
+        FlatContacts& segment(int contact_class, grainfall::flat::Partner partner);
     };
 
     /// Margins of the search: each sphere gets `skin` [m] and what it travels in `horizon` [s].
@@ -89,7 +92,7 @@ public:
 
     bool is_flat(Body::id_t id) const {
         return id < static_cast<Body::id_t>(index_of_.size()) && index_of_[static_cast<size_t>(id)] >= 0 &&
-               !bodies_.is_plane(index_of_[static_cast<size_t>(id)]);
+               !bodies_.is_obstacle(index_of_[static_cast<size_t>(id)]);
     }
     /// Velocity and spin before the last step; known where the states after it were published.
     const grainfall::flat::Motion& earlier_motion(Body::id_t id) const {
@@ -114,12 +117,12 @@ private:
         Vector3r centre;
         Real margin;
     };
-    struct Box {
+    struct Bounds {
         Vector3r low, high;
-        bool meets(const Box& other) const {
+        bool meets(const Bounds& other) const {
             return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
         }
-        bool holds(const Box& other) const {
+        bool holds(const Bounds& other) const {
             return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
         }
     };
@@ -127,8 +130,10 @@ private:
     struct Roamer {
         Body* body;
         Vector3r centre;
-        Box room;
+        Quaternionr orientation;
+        Bounds room;
         const FemFace* face; // of a deformable wall, else null
+        int obstacle;        // index, -1: no obstacle
     };
     struct Moved {
         grainfall::flat::MotionBook book;
@@ -137,7 +142,7 @@ private:
     };
     struct Imported {
         int contact_class;
-        bool on_plane;
+        grainfall::flat::Partner partner;
         grainfall::flat::ContactState state;
         grainfall::flat::ContactConstants constants;
         ContactOwner owner;
@@ -167,7 +172,7 @@ private:
     long face_pairs_version_ = -1;
     bool moved_ = true;
     bool booking_ = false;
-    bool has_room_ = false; // has the force container places for planes and clumps?
+    bool has_room_ = false; // has the force container places for obstacles and clumps?
     bool forces_published_ = false;
     bool contacts_published_ = false; // in the last step
     bool states_published_ = false;
@@ -175,13 +180,14 @@ private:
     bool same_masks_ = true;
 
     void take_over_bodies(Scene& scene);
+    std::optional<grainfall::flat::Obstacle> obstacle_of(const Body& body) const;
     void find_functors();
     void take_over_contacts(Scene& scene, vector<Imported>& contacts);
     Imported imported(const shared_ptr<Interaction>& contact) const;
     FlatContacts& add_contact(Domain& domain, Imported contact) const;
     void note_plane_radius(int first, const Interaction& contact);
     grainfall::flat::DashpotMemory recall_dashpots(const ContactOwner& owner) const;
-    void read_planes();
+    void read_obstacles();
     void share_out(const vector<int>& place_of);
     void take_contacts(Domain& domain, vector<FlatContacts>& former, const vector<int>& place_of) const;
     void set_anchors(Reach reach);
@@ -192,14 +198,19 @@ private:
     vector<int> sort_spheres(const grainfall::flat::CellTable& cells);
     void list_near(Domain& domain, const grainfall::flat::CellTable& cells) const;
     int owner_of(int first, int second) const {
-        return bodies_.is_plane(first) ? second : std::min(first, second);
+        return bodies_.is_obstacle(first) ? second : std::min(first, second);
     }
     bool near_enough(int first, int second) const;
-    Box box_of(const Body& body);
-    Box room_of(const Body& body, Reach reach);
+    Bounds box_of(const Body& body);
+    Bounds room_of(const Body& body, Reach reach);
     bool others_have_moved();
-    void list_general(const grainfall::flat::CellTable& cells, Reach reach);
-    void add_spheres_near(const Roamer& roamer, const grainfall::flat::CellTable& cells);
+    bool has_gone_too_far(const Roamer& roamer) const;
+    void note_roamers(Reach reach);
+    void list_near_obstacles(Domain& domain, const grainfall::flat::CellTable& cells) const;
+    template <class Visit>
+    void visit_spheres_in(const Roamer& roamer, const grainfall::flat::CellTable& cells,
+                          const Visit& visit) const;
+    void list_general(const grainfall::flat::CellTable& cells);
 
     void start_booking(bool booking);
     void run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,
@@ -214,7 +225,8 @@ private:
     void publish_state(size_t index) const;
     void publish_forces(Scene& scene);
     void settle_books();
-    void load_planes(Scene& scene);
+    void load_obstacles(Scene& scene);
+    void show_exposed(Scene& scene);
     void prepare_walls(Scene& scene);
     grainfall::flat::Load take_load(size_t index);
     Moved move_domain(const Domain& domain, Scene& scene, const grainfall::flat::StepRules& rules,

@@ -20,7 +20,7 @@ void FlatGrains::contacts(Scene& scene, const FlatTables::Pair& tables, bool pub
     ++census.steps;
     if (scene.trackEnergy != booking_)
         start_booking(scene.trackEnergy);
-    read_planes();
+    read_obstacles();
     const Step step{booking_ ? tables.booking : tables.plain, scene.dt, scene.iter, publish};
     const int threads = static_cast<int>(domains_.size());
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
@@ -39,14 +39,15 @@ void FlatGrains::contacts(Scene& scene, const FlatTables::Pair& tables, bool pub
         if (domain.failure)
             std::rethrow_exception(std::exchange(domain.failure, nullptr));
         // One after the other, for the first contact of a plane says which radius it has.
-        bear(domain, step, domain.near_planes, domain.touching_planes);
+        bear(domain, step, domain.near_obstacles, domain.touching_obstacles);
         census.born += std::exchange(domain.born_now, 0);
         census.parted += std::exchange(domain.parted_now, 0);
     }
     if (publish)
         list_contacts(scene);
     settle_books();
-    load_planes(scene);
+    load_obstacles(scene);
+    show_exposed(scene);
     for (const int i : touched_by_others_)
         publish_state(static_cast<size_t>(i));
     prepare_walls(scene);
@@ -89,7 +90,7 @@ void FlatGrains::run_domain(Domain& domain, const Step& step) const {
 
 void FlatGrains::find_touching(Domain& domain) const {
     domain.touching.clear();
-    domain.touching_planes.clear();
+    domain.touching_obstacles.clear();
     const gf::Place* places = bodies_.places.data();
     for (size_t i = 0; i < domain.near.size(); ++i) {
         const gf::Pair pair = domain.near[i];
@@ -97,10 +98,10 @@ void FlatGrains::find_touching(Domain& domain) const {
         if ((places[pair.first].centre - places[pair.second].centre).squaredNorm() <= sum * sum)
             domain.touching.push_back(i);
     }
-    for (size_t i = 0; i < domain.near_planes.size(); ++i) {
-        const gf::Pair pair = domain.near_planes[i];
-        if (gf::gap(bodies_.plane(pair.first), places[pair.first], places[pair.second]) <= 0)
-            domain.touching_planes.push_back(i);
+    for (size_t i = 0; i < domain.near_obstacles.size(); ++i) {
+        const gf::Pair pair = domain.near_obstacles[i];
+        if (gf::gap(bodies_.obstacle(pair.first), places[pair.first], places[pair.second], 0) <= 0)
+            domain.touching_obstacles.push_back(i);
     }
 }
 
@@ -112,13 +113,14 @@ void FlatGrains::bury(Domain& domain) const {
         for (size_t k = domain.opened[s].size(); k-- > 0;) {
             const size_t i = domain.opened[s][k];
             const gf::ContactState& state = contacts.states[i];
-            if (bodies_.is_plane(state.first))
-                domain.near_planes.push_back({state.first, state.second});
+            if (contacts.on_obstacles())
+                domain.near_obstacles.push_back({state.first, state.second});
             else
                 domain.near.push_back(
                     {std::min(state.first, state.second), std::max(state.first, state.second)});
             if (contacts.owners[i].in_scene)
-                domain.parted.push_back(std::move(contacts.owners[i].contact));
+                (is_exposed(contacts.partner) ? domain.parted_exposed : domain.parted)
+                    .push_back(std::move(contacts.owners[i].contact));
             contacts.remove(i);
         }
     }
@@ -151,7 +153,7 @@ bool FlatGrains::make_contact(Domain& domain, const Step& step, gf::Pair pair, I
     State* state1 = body1->state.get();
     State* state2 = domain.second_state.get();
     write_state(*state2, static_cast<size_t>(pair.second));
-    if (!bodies_.is_plane(pair.first)) {
+    if (!bodies_.is_obstacle(pair.first)) {
         state1 = domain.first_state.get();
         write_state(*state1, static_cast<size_t>(pair.first));
         if (body1->id > body2->id) {
@@ -178,20 +180,44 @@ bool FlatGrains::make_contact(Domain& domain, const Step& step, gf::Pair pair, I
     return true;
 }
 
+namespace {
+
+void let_go(InteractionContainer& container, vector<shared_ptr<Interaction>>& parted) {
+    for (const auto& contact : parted)
+        container.erase(contact->getId1(), contact->getId2(), contact->linIx);
+    parted.clear();
+}
+
+void take_in(InteractionContainer& container, FlatContacts& contacts) {
+    for (ContactOwner& owner : contacts.owners)
+        if (!owner.in_scene) {
+            container.insert(owner.contact);
+            owner.in_scene = true;
+        }
+}
+
+} // namespace
+
 void FlatGrains::list_contacts(Scene& scene) {
-    InteractionContainer& container = *scene.interactions;
-    for (Domain& domain : domains_) {
-        for (const auto& contact : domain.parted)
-            container.erase(contact->getId1(), contact->getId2(), contact->linIx);
-        domain.parted.clear();
-    }
+    for (Domain& domain : domains_)
+        let_go(*scene.interactions, domain.parted);
     for (Domain& domain : domains_)
         for (FlatContacts& segment : domain.segments)
-            for (ContactOwner& owner : segment.owners)
-                if (!owner.in_scene) {
-                    container.insert(owner.contact);
-                    owner.in_scene = true;
-                }
+            take_in(*scene.interactions, segment);
+}
+
+/// Contacts that YADE sees in every step, and their spheres.
+void FlatGrains::show_exposed(Scene& scene) {
+    for (Domain& domain : domains_)
+        let_go(*scene.interactions, domain.parted_exposed);
+    for (Domain& domain : domains_)
+        for (FlatContacts& segment : domain.segments) {
+            if (!is_exposed(segment.partner))
+                continue;
+            take_in(*scene.interactions, segment);
+            for (const gf::ContactState& state : segment.states)
+                publish_state(static_cast<size_t>(state.second));
+        }
 }
 
 /// Deformable walls are solved for where their grains now are.
@@ -228,7 +254,7 @@ void FlatGrains::settle_books() {
         functors.grain_law->book_bridge(sum.bridge);
 }
 
-void FlatGrains::load_planes(Scene& scene) {
+void FlatGrains::load_obstacles(Scene& scene) {
     for (size_t i = static_cast<size_t>(bodies_.spheres()); i < yade_.size(); ++i) {
         gf::Load sum;
         for (Domain& domain : domains_) {

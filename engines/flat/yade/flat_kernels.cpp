@@ -70,12 +70,13 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
             }
         }
         const gf::ContactBlock<Real> pair(loop.bodies, contacts.states.data(), i, i + 1);
-        const FlatTouch at = contacts.on_planes ? pair.touch_of_planes() : pair.touch_of_spheres();
+        const FlatTouch at =
+            contacts.on_obstacles() ? pair.touch_of_obstacles(contacts.partner) : pair.touch_of_spheres();
         gb::BridgeMemory memory = bridge.memory();
         Energy book;
         const gb::BridgeState held = gb::LiquidBridge<Form, Film, Energy>::step(
-            -at.touch.overlap, pair.velocity().dot(at.touch.normal), loop.time_step, bridge.parameters(),
-            memory, book);
+            -at.touch.overlap, pair.normal_velocity(at, contacts.partner), loop.time_step,
+            bridge.parameters(), memory, book);
         bridge.remember<Film, Energy>(memory);
         if constexpr (Energy::active) {
             loop.book.viscous += book.viscous;
@@ -83,14 +84,16 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
         }
         state.normal = at.touch.normal;
         if (held == gb::BridgeState::holding)
-            apply(loop, contacts.on_planes, state, at, bridge.normal_force<Film>() * at.touch.normal,
+            apply(loop, contacts.on_obstacles(), state, at, bridge.normal_force<Film>() * at.touch.normal,
                   Vector3r::Zero());
         else if (held == gb::BridgeState::ended)
             loop.opened.push_back(i);
-        if (loop.publish && !touching) {
+        if ((loop.publish || is_exposed(contacts.partner)) && !touching) {
             gl::ContactGeometry geometry;
-            gl::put_motion<Real>(geometry, at.touch, pair.velocity(), pair.of_first(&gf::Motion::spin),
-                                 pair.of_second(&gf::Motion::spin), loop.time_step);
+            gl::put_motion<Real>(geometry, at.touch, pair.velocity(), pair.spin1(), pair.spin2(),
+                                 loop.time_step);
+            if (gf::has_surface_motion(contacts.partner))
+                pair.put_surface_motion(at, contacts.partner, geometry);
             publish_geometry(loop, state, contacts.owners[i], at, geometry);
         }
     }

@@ -31,6 +31,11 @@ struct FlatBook {
     Real friction = 0, viscous = 0, rescaling = 0, kinematics = 0, bridge = 0;
 };
 
+/// Contacts that YADE sees in every step, for the engines that sum up the load on a projectile.
+inline bool is_exposed(grainfall::flat::Partner partner) {
+    return partner == grainfall::flat::Partner::solid;
+}
+
 struct FlatLoop {
     const grainfall::flat::Bodies& bodies;
     grainfall::flat::Load* loads; // of all bodies, for this thread
@@ -68,23 +73,23 @@ namespace gl = grainfall::laws;
 
 using FlatTouch = gf::TouchAt<Real>;
 
-/// From the centre of a plane, wherever that is, to the contact point.
-inline Vector3r plane_lever(const gf::Bodies& bodies, const gf::ContactState& state, const FlatTouch& at) {
+/// From the centre of an obstacle, wherever that is, to the contact point.
+inline Vector3r obstacle_lever(const gf::Bodies& bodies, const gf::ContactState& state, const FlatTouch& at) {
     return bodies.places[static_cast<size_t>(state.second)].centre - at.arm2 * at.touch.normal -
            bodies.places[static_cast<size_t>(state.first)].centre;
 }
 
 /// `turn`: normal x shear force. The normal force has no arm about the centre of a sphere.
-[[gnu::always_inline]] inline void apply(const FlatLoop& loop, bool on_plane, const gf::ContactState& state,
-                                         const FlatTouch& at, const Vector3r& force_on_2,
-                                         const Vector3r& turn) {
+[[gnu::always_inline]] inline void apply(const FlatLoop& loop, bool on_obstacle,
+                                         const gf::ContactState& state, const FlatTouch& at,
+                                         const Vector3r& force_on_2, const Vector3r& turn) {
     gf::Load& load1 = loop.loads[state.first];
     gf::Load& load2 = loop.loads[state.second];
     load1.force -= force_on_2;
     load2.force += force_on_2;
     load2.torque -= at.arm2 * turn;
-    if (on_plane)
-        load1.torque -= plane_lever(loop.bodies, state, at).cross(force_on_2);
+    if (on_obstacle)
+        load1.torque -= obstacle_lever(loop.bodies, state, at).cross(force_on_2);
     else
         load1.torque -= at.arm1 * turn;
 }
@@ -145,24 +150,14 @@ template <class Scalar>
         state.normal = at.touch.normal;
         state.shear_force = gf::lane_of(outcome.memory.shear_force, lane);
         state.shear_stiffness = gl::lane_of(outcome.memory.shear_stiffness, lane);
-        apply(loop, contacts.on_planes, state, at, force.normal * at.touch.normal + force.shear,
+        apply(loop, contacts.on_obstacles(), state, at, force.normal * at.touch.normal + force.shear,
               at.touch.normal.cross(force.shear));
-        if (loop.publish) {
+        if (loop.publish || is_exposed(contacts.partner)) {
             const ContactOwner& owner = contacts.owners[block[lane]];
             publish_geometry(loop, state, owner, at, gf::lane_of(outcome.geometry, lane));
             publish_force(state, owner, force, has_shear);
         }
     }
-}
-
-/// Velocity of body 2 seen from body 1 at the contact point.
-template <class Scalar>
-inline gl::VectorOf<Scalar> velocity_at_contact(const FlatContacts& contacts,
-                                                const gf::ContactBlock<Scalar>& block,
-                                                const gf::TouchAt<Scalar>& at) {
-    const gl::VectorOf<Scalar> lever =
-        contacts.on_planes ? block.plane_levers(at) : gl::VectorOf<Scalar>(at.arm1 * at.touch.normal);
-    return block.velocity() - at.arm2 * block.spin2().cross(at.touch.normal) - block.spin1().cross(lever);
 }
 
 /// Books of one step; idle lanes do not count.
@@ -184,7 +179,7 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
     for (size_t i = begin; i < end; i += gl::width_of<Scalar>) {
         const gf::ContactBlock<Scalar> block(loop.bodies, contacts.states.data(), i, end);
         const gf::TouchAt<Scalar> at =
-            contacts.on_planes ? block.touch_of_planes() : block.touch_of_spheres();
+            contacts.on_obstacles() ? block.touch_of_obstacles(contacts.partner) : block.touch_of_spheres();
         typename ContactLaw::template MemoryOf<Scalar> memory;
         block.recall(memory);
         recall_history(contacts.owners[i], memory);
@@ -198,6 +193,8 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
         gl::ContactGeometryOf<Scalar> geometry;
         const Vectors spin1 = block.spin1(), spin2 = block.spin2();
         gl::put_motion<Scalar>(geometry, at.touch, block.velocity(), spin1, spin2, loop.time_step);
+        if (gf::has_surface_motion(contacts.partner))
+            block.put_surface_motion(at, contacts.partner, geometry);
         gl::put_rotation<Scalar>(geometry, block.normal_before(), spin1, spin2);
 
         Book book;
@@ -214,7 +211,8 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
             Scalar kinematics = 0;
             if constexpr (Tangential::active) {
                 // Forces lie in the contact plane: the normal part of the velocity does not count.
-                const Vectors moved = Scalar(loop.time_step) * velocity_at_contact(contacts, block, at);
+                const Vectors moved =
+                    Scalar(loop.time_step) * block.velocity_at_contact(at, contacts.partner);
                 kinematics = -0.5 * (shear_before + force.shear).dot(geometry.shear_increment - moved);
             }
             settle<Scalar>(loop.book, book, kinematics, idle);
@@ -222,7 +220,7 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
         }
         if constexpr (Tangential::active)
             keep_history(contacts.owners[i], memory);
-        if (gl::any(idle) || loop.publish || contacts.on_planes)
+        if (gl::any(idle) || loop.publish || contacts.on_obstacles())
             finish_each<Scalar>(loop, contacts, block, {idle, at, geometry, force, memory},
                                 Tangential::active);
         else {

@@ -93,7 +93,7 @@ size_t FlatGrains::contact_count() const {
 size_t FlatGrains::near_count() const {
     size_t count = 0;
     for (const Domain& domain : domains_)
-        count += domain.near.size() + domain.near_planes.size();
+        count += domain.near.size() + domain.near_obstacles.size();
     return count;
 }
 

@@ -27,19 +27,19 @@ void reorder(Values& values, const vector<int>& order) {
 
 } // namespace
 
-FlatContacts& FlatGrains::Domain::segment(int contact_class, bool on_planes) {
+FlatContacts& FlatGrains::Domain::segment(int contact_class, gf::Partner partner) {
     for (FlatContacts& known : segments)
-        if (known.contact_class == contact_class && known.on_planes == on_planes)
+        if (known.contact_class == contact_class && known.partner == partner)
             return known;
     segments.emplace_back();
     segments.back().contact_class = contact_class;
-    segments.back().on_planes = on_planes;
+    segments.back().partner = partner;
     return segments.back();
 }
 
 void FlatGrains::search(Reach reach) {
     ++census.searches;
-    read_planes();
+    read_obstacles();
     set_anchors(reach);
     Real farthest = 0;
     for (int i = 0; i < bodies_.spheres(); ++i) {
@@ -54,12 +54,13 @@ void FlatGrains::search(Reach reach) {
         if (is_giant(i))
             giants_.push_back(i);
     share_out(place_of);
+    note_roamers(reach);
 
     const int threads = static_cast<int>(domains_.size());
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
     for (int d = 0; d < threads; ++d)
         list_near(domains_[static_cast<size_t>(d)], cells);
-    list_general(cells, reach);
+    list_general(cells);
     moved_ = false;
 }
 
@@ -68,9 +69,12 @@ void FlatGrains::search(Reach reach) {
 void FlatGrains::set_anchors(Reach reach) {
     anchors_.resize(yade_.size());
     for (size_t i = 0; i < yade_.size(); ++i) {
-        const Real travel = bodies_.motions[i].velocity.norm() * reach.horizon;
-        const bool plane = bodies_.is_plane(static_cast<int>(i));
-        const Real most = plane ? 20 * reach.skin : bodies_.places[i].radius;
+        const gf::Motion& motion = bodies_.motions[i];
+        const bool obstacle = bodies_.is_obstacle(static_cast<int>(i));
+        const Real turning =
+            obstacle ? gf::turning_speed(bodies_.obstacle(static_cast<int>(i)), motion.spin) : 0;
+        const Real travel = (motion.velocity.norm() + turning) * reach.horizon;
+        const Real most = obstacle ? 20 * reach.skin : bodies_.places[i].radius;
         anchors_[i] = {bodies_.places[i].centre, reach.skin + std::min(travel, most)};
     }
 }
@@ -137,11 +141,11 @@ void FlatGrains::take_contacts(Domain& domain, vector<FlatContacts>& former,
         gf::ContactState state = from.states[at.index];
         state.first = stands(state.first);
         state.second = stands(state.second);
-        domain.segment(from.contact_class, from.on_planes)
+        domain.segment(from.contact_class, from.partner)
             .add(state, from.constants[at.index], std::move(from.owners[at.index]),
                  booking_ ? &from.dashpots[at.index] : nullptr);
         const int higher = std::max(at.owner, at.other);
-        if (!bodies_.is_plane(higher))
+        if (!bodies_.is_obstacle(higher))
             domain.loaded_end = std::max(domain.loaded_end, higher + 1);
     }
 }
@@ -149,8 +153,8 @@ void FlatGrains::take_contacts(Domain& domain, vector<FlatContacts>& former,
 bool FlatGrains::near_enough(int first, int second) const {
     const auto a = static_cast<size_t>(first), b = static_cast<size_t>(second);
     const Real margin = anchors_[a].margin + anchors_[b].margin;
-    if (bodies_.is_plane(first)) {
-        if (gf::gap(bodies_.plane(first), bodies_.places[a], bodies_.places[b]) >= margin)
+    if (bodies_.is_obstacle(first)) {
+        if (gf::gap(bodies_.obstacle(first), bodies_.places[a], bodies_.places[b], margin) >= margin)
             return false;
     } else {
         const Real range = bodies_.places[a].radius + bodies_.places[b].radius + margin;
@@ -162,7 +166,6 @@ bool FlatGrains::near_enough(int first, int second) const {
 
 void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
     domain.near.clear();
-    domain.near_planes.clear();
     // Partners of each sphere that are in contact with it already.
     vector<vector<std::pair<int, int>>> partners(domain.segments.size());
     for (size_t s = 0; s < domain.segments.size(); ++s)
@@ -176,9 +179,6 @@ void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
         for (size_t s = 0; s < partners.size(); ++s)
             for (; next[s] < partners[s].size() && partners[s][next[s]].first == i; ++next[s])
                 touches[static_cast<size_t>(partners[s][next[s]].second)] = i;
-        for (int plane = bodies_.spheres(); plane < bodies_.count(); ++plane)
-            if (touches[static_cast<size_t>(plane)] != i && near_enough(plane, i))
-                domain.near_planes.push_back({plane, i});
         const auto consider = [&](int other) {
             if (touches[static_cast<size_t>(other)] != i && near_enough(i, other))
                 domain.near.push_back({i, other});
@@ -201,9 +201,55 @@ void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
     }
     for (const gf::Pair& pair : domain.near)
         domain.loaded_end = std::max(domain.loaded_end, pair.second + 1);
+    list_near_obstacles(domain, cells);
 }
 
-FlatGrains::Box FlatGrains::box_of(const Body& body) {
+/// Calls visit(sphere) for those that may reach into the roamer's room.
+template <class Visit>
+void FlatGrains::visit_spheres_in(const Roamer& roamer, const gf::CellTable& cells,
+                                  const Visit& visit) const {
+    if (bodies_.spheres() == 0)
+        return; // no cells either
+    const auto consider = [&](int i) {
+        const auto at = static_cast<size_t>(i);
+        const Vector3r reach = Vector3r::Constant(bodies_.places[at].radius + anchors_[at].margin);
+        const Vector3r& centre = bodies_.places[at].centre;
+        if (roamer.room.meets({centre - reach, centre + reach}))
+            visit(i);
+    };
+    cells.grid.inside(roamer.room.low, roamer.room.high, [&](int from, int to) {
+        const int end = cells.starts[static_cast<size_t>(to)];
+        for (int i = cells.starts[static_cast<size_t>(from)]; i < end; ++i)
+            if (!is_giant(i))
+                consider(i);
+    });
+    for (const int giant : giants_) // may reach farther than from the next cell
+        consider(giant);
+}
+
+void FlatGrains::list_near_obstacles(Domain& domain, const gf::CellTable& cells) const {
+    domain.near_obstacles.clear();
+    vector<vector<int>> touching(bodies_.obstacles.size());
+    for (const FlatContacts& segment : domain.segments)
+        if (segment.on_obstacles())
+            for (const gf::ContactState& state : segment.states)
+                touching[static_cast<size_t>(state.first - bodies_.spheres())].push_back(state.second);
+    vector<int> met(static_cast<size_t>(bodies_.spheres()), -1);
+    for (const Roamer& roamer : roamers_) {
+        const int obstacle = roamer.obstacle;
+        if (obstacle < 0)
+            continue;
+        for (const int sphere : touching[static_cast<size_t>(obstacle - bodies_.spheres())])
+            met[static_cast<size_t>(sphere)] = obstacle;
+        visit_spheres_in(roamer, cells, [&](int i) {
+            if (i >= domain.begin && i < domain.end && met[static_cast<size_t>(i)] != obstacle &&
+                near_enough(obstacle, i))
+                domain.near_obstacles.push_back({obstacle, i});
+        });
+    }
+}
+
+FlatGrains::Bounds FlatGrains::box_of(const Body& body) {
     const auto functor = functors.bound(*body.shape);
     shared_ptr<Bound>& bound = const_cast<Body&>(body).bound;
     if (functor)
@@ -214,8 +260,8 @@ FlatGrains::Box FlatGrains::box_of(const Body& body) {
 }
 
 /// The box of a body that is no flat sphere, with room for what it travels until the next search.
-FlatGrains::Box FlatGrains::room_of(const Body& body, Reach reach) {
-    Box box = box_of(body);
+FlatGrains::Bounds FlatGrains::room_of(const Body& body, Reach reach) {
+    Bounds box = box_of(body);
     const Vector3r extent = box.high - box.low;
     const Real arm = extent.allFinite() ? 0.5 * extent.norm() : 0;
     const Real speed = body.state->vel.norm() + arm * body.state->angVel.norm();
@@ -229,30 +275,47 @@ bool FlatGrains::others_have_moved() {
         const State& state = *roamer.body->state;
         const bool rests = state.vel == Vector3r::Zero() && state.angVel == Vector3r::Zero() &&
                            state.pos == roamer.centre && !(roamer.face && roamer.face->has_left_bound());
-        if (!rests && !roamer.room.holds(box_of(*roamer.body)))
+        if (!rests && (has_gone_too_far(roamer) || !roamer.room.holds(box_of(*roamer.body))))
             return true;
     }
     return false;
 }
 
-void FlatGrains::list_general(const gf::CellTable& cells, Reach reach) {
-    general_.forget_those_apart();
+/// A bound does not tell how far the surface of a body that turns has gone.
+bool FlatGrains::has_gone_too_far(const Roamer& roamer) const {
+    if (roamer.obstacle < 0)
+        return false;
+    const State& state = *roamer.body->state;
+    const Real turned = gf::turned_by(bodies_.obstacle(roamer.obstacle), roamer.orientation, state.ori);
+    return (state.pos - roamer.centre).norm() + turned >
+           anchors_[static_cast<size_t>(roamer.obstacle)].margin;
+}
+
+void FlatGrains::note_roamers(Reach reach) {
     roamers_.clear();
     for (Body* body : others_)
         if (body->shape && body->isBounded())
-            roamers_.push_back({body, body->state->pos, room_of(*body, reach),
-                                dynamic_cast<const FemFace*>(body->shape.get())});
+            roamers_.push_back({body, body->state->pos, body->state->ori, room_of(*body, reach),
+                                dynamic_cast<const FemFace*>(body->shape.get()),
+                                index_of_[static_cast<size_t>(body->id)]});
     // Faces of deformable walls, which may be many, do not meet each other: they stand last.
-    const auto faces = std::stable_partition(roamers_.begin(), roamers_.end(),
-                                             [](const Roamer& roamer) { return !roamer.face; });
+    std::stable_partition(roamers_.begin(), roamers_.end(),
+                          [](const Roamer& roamer) { return !roamer.face; });
+}
+
+void FlatGrains::list_general(const gf::CellTable& cells) {
+    general_.forget_those_apart();
+    const auto faces =
+        std::find_if(roamers_.begin(), roamers_.end(), [](const Roamer& roamer) { return roamer.face; });
     const auto first_face = static_cast<size_t>(faces - roamers_.begin());
     for (size_t a = 0; a < roamers_.size(); ++a) {
         Body& body = *roamers_[a].body;
         for (size_t b = a + 1; a < first_face && b < roamers_.size(); ++b)
             if (roamers_[a].room.meets(roamers_[b].room))
                 general_.add(body, *roamers_[b].body, functors);
-        if (index_of_[static_cast<size_t>(body.id)] < 0) // else a plane, whose pairs with spheres are flat
-            add_spheres_near(roamers_[a], cells);
+        if (roamers_[a].obstacle < 0) // else its pairs with spheres are flat
+            visit_spheres_in(roamers_[a], cells,
+                             [&](int i) { general_.add(body, *yade_[static_cast<size_t>(i)], functors); });
     }
     // Spheres that take part: their State is written before, their forces read after.
     touched_by_others_.clear();
@@ -263,22 +326,6 @@ void FlatGrains::list_general(const gf::CellTable& cells, Reach reach) {
     std::sort(touched_by_others_.begin(), touched_by_others_.end());
     touched_by_others_.erase(std::unique(touched_by_others_.begin(), touched_by_others_.end()),
                              touched_by_others_.end());
-}
-
-void FlatGrains::add_spheres_near(const Roamer& roamer, const gf::CellTable& cells) {
-    if (bodies_.spheres() == 0)
-        return; // no cells either
-    const auto visit = [&](int from, int to) {
-        const int end = cells.starts[static_cast<size_t>(to)];
-        for (int i = cells.starts[static_cast<size_t>(from)]; i < end; ++i) {
-            const auto at = static_cast<size_t>(i);
-            const Vector3r reach = Vector3r::Constant(bodies_.places[at].radius + anchors_[at].margin);
-            const Vector3r& centre = bodies_.places[at].centre;
-            if (roamer.room.meets({centre - reach, centre + reach}))
-                general_.add(*roamer.body, *yade_[at], functors);
-        }
-    };
-    cells.grid.inside(roamer.room.low, roamer.room.high, visit);
 }
 
 } // namespace yade

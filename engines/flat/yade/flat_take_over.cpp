@@ -2,6 +2,7 @@
 // YADE's objects -> packed arrays.
 #include <engines/flat/yade/FlatGrains.hpp>
 
+#include <engines/projectile/yade/SolidOfRevolution.hpp>
 #include <femlink/yade/FemFace.hpp>
 #include <laws/yade/GrainMat.hpp>
 #include <laws/yade/GrainEffectPhys.hpp>
@@ -10,6 +11,7 @@
 #include <core/Cell.hpp>
 #include <core/InteractionContainer.hpp>
 #include <core/State.hpp>
+#include <pkg/common/Box.hpp>
 #include <pkg/common/Sphere.hpp>
 #include <pkg/common/Wall.hpp>
 
@@ -28,7 +30,7 @@ bool is_grain(const Body& body) {
 bool is_flat_sphere(const Body& body) {
     return is_grain(body) && !body.isAspherical() && body.shape && body.shape->getClassName() == "Sphere";
 }
-bool is_flat_plane(const Body& body) {
+bool is_wall(const Body& body) {
     return is_grain(body) && body.shape && body.shape->getClassName() == "Wall";
 }
 
@@ -46,7 +48,7 @@ std::string FlatGrains::obstacle(const Scene& scene) const {
     for (const auto& body : scene.bodies->body) {
         if (!body)
             continue;
-        if (body->isBounded() && !is_flat_sphere(*body) && !is_flat_plane(*body) && !is_face(*body))
+        if (body->isBounded() && !is_flat_sphere(*body) && !is_wall(*body) && !is_face(*body))
             ++others;
     }
     if (others > 500)
@@ -80,15 +82,15 @@ void FlatGrains::take_over_bodies(Scene& scene) {
     others_.clear();
     const auto& all = scene.bodies->body;
     index_of_.assign(all.size(), -1);
-    vector<Body*> planes;
+    vector<Body*> obstacles;
     same_masks_ = functors.avoid_self_interaction == 0;
     for (const auto& body : all) {
         if (!body || !body->shape)
             continue;
         if (!is_flat_sphere(*body)) {
             others_.push_back(body.get());
-            if (is_flat_plane(*body))
-                planes.push_back(body.get());
+            if (obstacle_of(*body))
+                obstacles.push_back(body.get());
             continue;
         }
         same_masks_ = same_masks_ && body->groupMask == 1;
@@ -101,16 +103,42 @@ void FlatGrains::take_over_bodies(Scene& scene) {
         bodies_.orientations.push_back(state.ori);
         bodies_.inertias.push_back({state.mass, state.inertia, state.blockedDOFs, state.isDamped});
     }
-    for (Body* body : planes) {
-        const Wall& wall = static_cast<const Wall&>(*body->shape);
+    for (Body* body : obstacles) {
         same_masks_ = same_masks_ && body->groupMask == 1;
         index_of_[static_cast<size_t>(body->id)] = static_cast<int>(yade_.size());
         yade_.push_back(body);
         bodies_.ids.push_back(body->id);
         bodies_.places.push_back({body->state->pos, 1});
         bodies_.motions.push_back({body->state->vel, body->state->angVel});
-        bodies_.planes.push_back({wall.axis, wall.sense});
+        bodies_.obstacles.push_back(*obstacle_of(*body));
     }
+}
+
+/// Nothing for a body whose contacts go through their own functors.
+std::optional<gf::Obstacle> FlatGrains::obstacle_of(const Body& body) const {
+    if (!is_grain(body))
+        return {};
+    gf::Obstacle result;
+    if (is_wall(body)) {
+        const auto& wall = static_cast<const Wall&>(*body.shape);
+        result.axis = wall.axis;
+        result.sense = wall.sense;
+        return result;
+    }
+    if (functors.usual_boxes() && body.shape->getClassName() == "Box") {
+        result.kind = gf::Partner::box;
+        result.half_edges = static_cast<const Box&>(*body.shape).extents;
+        return result;
+    }
+    const auto* solid = dynamic_cast<const SolidOfRevolution*>(body.shape.get());
+    if (functors.usual_solids() && solid && !solid->body().empty()) {
+        result.kind = gf::Partner::solid;
+        result.profile = &solid->body();
+        result.edge_radius = solid->edgeRadius;
+        result.flat_radius_factor = functors.flat_radius_factor();
+        return result;
+    }
+    return {};
 }
 
 /// The functors of all contacts that may come, so that threads need not look for them.
@@ -151,7 +179,7 @@ void FlatGrains::take_over_contacts(Scene& scene, vector<Imported>& contacts) {
         const shared_ptr<Interaction>& contact = container[i];
         const int first = index_of_[static_cast<size_t>(contact->getId1())];
         const int second = index_of_[static_cast<size_t>(contact->getId2())];
-        const bool ours = first >= 0 && second >= 0 && !bodies_.is_plane(second) &&
+        const bool ours = first >= 0 && second >= 0 && !bodies_.is_obstacle(second) &&
                           dynamic_cast<GrainPhys*>(contact->phys.get()) &&
                           dynamic_cast<ScGeom*>(contact->geom.get());
         if (ours) {
@@ -171,7 +199,7 @@ void FlatGrains::take_over_contacts(Scene& scene, vector<Imported>& contacts) {
 /// What radius the geometry functor gives a plane, over that of the sphere (`hertzian`: a large number).
 void FlatGrains::note_plane_radius(int first, const Interaction& contact) {
     const auto& geom = static_cast<const ScGeom&>(*contact.geom);
-    if (bodies_.is_plane(first))
+    if (bodies_.kind(first) == gf::Partner::plane)
         bodies_.places[static_cast<size_t>(first)].radius = geom.refR1 / geom.refR2;
 }
 
@@ -183,7 +211,7 @@ FlatGrains::Imported FlatGrains::imported(const shared_ptr<Interaction>& contact
     result.owner = {contact, &geom, &phys, false};
     result.state.first = index_of_[static_cast<size_t>(contact->getId1())];
     result.state.second = index_of_[static_cast<size_t>(contact->getId2())];
-    result.on_plane = bodies_.is_plane(result.state.first);
+    result.partner = bodies_.kind(result.state.first);
     result.state.normal = geom.normal;
     result.state.shear_force = phys.shearElastic;
     result.state.shear_stiffness = phys.ks;
@@ -198,7 +226,7 @@ FlatGrains::Imported FlatGrains::imported(const shared_ptr<Interaction>& contact
 }
 
 FlatContacts& FlatGrains::add_contact(Domain& domain, Imported contact) const {
-    FlatContacts& contacts = domain.segment(contact.contact_class, contact.on_plane);
+    FlatContacts& contacts = domain.segment(contact.contact_class, contact.partner);
     contacts.add(contact.state, contact.constants, std::move(contact.owner),
                  booking_ ? &contact.dashpot : nullptr);
     return contacts;
@@ -227,11 +255,13 @@ void FlatGrains::take_over_states() {
     }
 }
 
-void FlatGrains::read_planes() {
-    for (size_t i = static_cast<size_t>(bodies_.spheres()); i < yade_.size(); ++i) {
+void FlatGrains::read_obstacles() {
+    const auto spheres = static_cast<size_t>(bodies_.spheres());
+    for (size_t i = spheres; i < yade_.size(); ++i) {
         const State& state = *yade_[i]->state;
         bodies_.places[i].centre = state.pos;
         bodies_.motions[i] = {state.vel, state.angVel};
+        bodies_.obstacles[i - spheres].axes = state.ori.toRotationMatrix();
     }
 }
 

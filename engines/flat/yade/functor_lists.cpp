@@ -73,6 +73,9 @@ vector<shared_ptr<Functor>> functors_of(const py::object& engine, const char* di
 bool flag(const shared_ptr<IGeomFunctor>& functor, const char* name) {
     return py::extract<bool>(py::object(functor).attr(name));
 }
+Real number(const shared_ptr<IGeomFunctor>& functor, const char* name) {
+    return py::extract<double>(py::object(functor).attr(name));
+}
 
 } // namespace
 
@@ -101,12 +104,21 @@ void FunctorLists::read(const shared_ptr<Engine>& loop, const shared_ptr<Engine>
         const string name = functor->getClassName();
         if (name == "Ig2_Sphere_Sphere_ScGeom") {
             ratcheting_ |= !flag(functor, "avoidGranularRatcheting");
-            const double factor = py::extract<double>(py::object(functor).attr("interactionDetectionFactor"));
-            distant_ |= factor != 1;
+            distant_ |= number(functor, "interactionDetectionFactor") != 1;
         } else if (name == "Ig2_Wall_Sphere_ScGeom") {
             ratcheting_ |= !flag(functor, "noRatch");
         }
     }
+    const auto serves = [this](const char* shape, const char* name) -> shared_ptr<IGeomFunctor> {
+        const Found<IGeomFunctor> found = nearest(geometries_, shape, "Sphere", true);
+        const bool usual = found.functor && !found.swapped && found.functor->getClassName() == name &&
+                           number(found.functor, "interactionDetectionFactor") == 1;
+        return usual ? found.functor : nullptr;
+    };
+    usual_boxes_ = serves("Box", "Ig2_Box_Sphere_ScGeom") != nullptr;
+    const auto of_solids = serves("SolidOfRevolution", "Ig2_SolidOfRevolution_Sphere_ScGeom");
+    usual_solids_ = of_solids != nullptr;
+    flat_radius_factor_ = of_solids ? number(of_solids, "flatRadiusFactor") : 0;
 }
 
 void FunctorLists::set_scene(Scene* scene) const {

@@ -39,6 +39,11 @@ public:
     shared_ptr<LawFunctor> law(const IGeom& geometry, const IPhys& physics);
     shared_ptr<BoundFunctor> bound(const Shape& shape);
 
+    /// Do spheres meet boxes, and solids of revolution, by the usual geometry?
+    bool usual_boxes() const { return usual_boxes_; }
+    bool usual_solids() const { return usual_solids_; }
+    /// Of flat places of solids, over the sphere's.
+    Real flat_radius_factor() const { return flat_radius_factor_; }
     /// Why contacts of spheres and walls with these functors cannot run on the flat path; empty if they can.
     std::string obstacle() const;
 
@@ -50,7 +55,8 @@ private:
     vector<shared_ptr<IPhysFunctor>> physics_;
     vector<shared_ptr<LawFunctor>> laws_;
     vector<shared_ptr<BoundFunctor>> bounds_;
-    bool ratcheting_ = false, distant_ = false;
+    bool ratcheting_ = false, distant_ = false, usual_boxes_ = false, usual_solids_ = false;
+    Real flat_radius_factor_ = 0;
 
     using Names = std::pair<string, string>;
     std::map<Names, Found<IGeomFunctor>> found_geometries_;
