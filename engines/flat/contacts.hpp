@@ -4,6 +4,7 @@
 
 #include <engines/flat/bodies.hpp>
 
+#include <laws/bridge/liquid_bridge.hpp>
 #include <laws/contact.hpp>
 #include <laws/friction/any.hpp>
 
@@ -36,27 +37,52 @@ struct DashpotMemory {
     Vector shear = Vector::Zero();
 };
 
-// Contacts of one class of spheres with one kind of partner. Owner: what else belongs to a contact, for the
-// caller.
+// The liquid between two bodies.
+struct Bridge {
+    laws::bridge::BridgeParameters parameters;
+    laws::bridge::BridgeMemory memory;
+};
+
+// All that belongs to one contact. Owner: what else does, for the caller.
+template <class Owner>
+struct Contact {
+    ContactState state;
+    ContactConstants constants;
+    Owner owner;
+    DashpotMemory dashpot;
+    Bridge bridge;
+};
+
+// Contacts of one class of spheres with one kind of partner.
 template <class Owner>
 struct Segment {
     int contact_class = 0;
     Partner partner = Partner::sphere;
+    bool wet = false;   // do they have bridges?
+    bool books = false; // and are energies booked?
     std::vector<ContactState> states;
     std::vector<ContactConstants> constants;
-    std::vector<DashpotMemory> dashpots; // empty where energies are not booked
     std::vector<Owner> owners;
+    std::vector<DashpotMemory> dashpots; // empty where nothing is booked
+    std::vector<Bridge> bridges;         // empty where contacts are dry
 
     bool on_obstacles() const { return partner != Partner::sphere; }
     std::size_t size() const { return states.size(); }
 
-    void add(const ContactState& state, const ContactConstants& constant, Owner owner,
-             const DashpotMemory* dashpot) {
-        states.push_back(state);
-        constants.push_back(constant);
-        owners.push_back(std::move(owner));
-        if (dashpot)
-            dashpots.push_back(*dashpot);
+    void add(Contact<Owner>&& contact) {
+        states.push_back(contact.state);
+        constants.push_back(contact.constants);
+        owners.push_back(std::move(contact.owner));
+        if (books)
+            dashpots.push_back(contact.dashpot);
+        if (wet)
+            bridges.push_back(contact.bridge);
+    }
+
+    // The contact is left without its owner.
+    Contact<Owner> extract(std::size_t i) {
+        return {states[i], constants[i], std::move(owners[i]), books ? dashpots[i] : DashpotMemory(),
+                wet ? bridges[i] : Bridge()};
     }
 
     // The last contact takes the place of the one removed.
@@ -64,8 +90,10 @@ struct Segment {
         take_last(states, i);
         take_last(constants, i);
         take_last(owners, i);
-        if (!dashpots.empty())
+        if (books)
             take_last(dashpots, i);
+        if (wet)
+            take_last(bridges, i);
     }
 
 private:

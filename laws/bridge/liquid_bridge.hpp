@@ -36,6 +36,12 @@ struct BridgeMemory {
     double work = 0;          // J, done against the attraction since the bridge formed
 };
 
+// N, on body 2 along the normal; without the film's part where it is known to be none.
+template <class Film>
+double normal_force(const BridgeMemory& memory) {
+    return Film::active ? memory.viscous_force - memory.attraction : -memory.attraction;
+}
+
 // Work is the mean of the forces before and after each displacement, times the displacement, as in
 // energy.hpp: kinetic + elastic + `work` of all bridges + what is booked here stays constant.
 struct BridgeBook {

@@ -58,7 +58,7 @@ public:
     /// N, on body 2 along the normal; without the film's part where it is known to be none.
     template <class Film = grainfall::laws::bridge::SqueezeFilm>
     Real normal_force() const {
-        return Film::active ? viscousForce - attraction : -attraction;
+        return grainfall::laws::bridge::normal_force<Film>(memory());
     }
 
     // clang-format off

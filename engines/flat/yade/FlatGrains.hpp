@@ -57,7 +57,7 @@ public:
                           second_state = boost::make_shared<State>();
         std::exception_ptr failure; // of this thread in this step
 
-        FlatContacts& segment(int contact_class, grainfall::flat::Partner partner);
+        FlatContacts& segment(int contact_class, grainfall::flat::Partner partner, bool books);
     };
 
     /// Margins of the search: each sphere gets `skin` [m] and what it travels in `horizon` [s].
@@ -140,13 +140,9 @@ private:
         Real fastest = 0; // m2/s2
         bool beyond_margin = false;
     };
-    struct Imported {
+    struct Imported : grainfall::flat::Contact<ContactOwner> {
         int contact_class;
         grainfall::flat::Partner partner;
-        grainfall::flat::ContactState state;
-        grainfall::flat::ContactConstants constants;
-        ContactOwner owner;
-        grainfall::flat::DashpotMemory dashpot;
     };
     struct Step {
         const FlatTable& table;

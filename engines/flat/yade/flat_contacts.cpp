@@ -63,6 +63,7 @@ void FlatGrains::start_booking(bool booking) {
     booking_ = booking;
     for (Domain& domain : domains_)
         for (FlatContacts& segment : domain.segments) {
+            segment.books = booking;
             segment.dashpots.assign(booking ? segment.size() : 0, gf::DashpotMemory());
             for (size_t i = 0; booking && contacts_published_ && i < segment.size(); ++i)
                 segment.dashpots[i] = recall_dashpots(segment.owners[i]);
@@ -72,9 +73,8 @@ void FlatGrains::start_booking(bool booking) {
 void FlatGrains::run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,
                      size_t end) const {
     FlatContacts& contacts = domain.segments[segment];
-    const ContactClass kind(contacts.contact_class);
-    if (kind.bridge() == BridgeKind::none)
-        table[static_cast<size_t>(kind.index)](loop, contacts, begin, end);
+    if (!contacts.wet)
+        table[static_cast<size_t>(contacts.contact_class)](loop, contacts, begin, end);
     else
         run_wet_flat(table, booking_, loop, contacts, begin, end);
 }

@@ -42,6 +42,10 @@ namespace {
 
 namespace gb = grainfall::laws::bridge;
 
+GrainEffectPhys& effects_of(const ContactOwner& owner) {
+    return static_cast<GrainEffectPhys&>(*owner.phys);
+}
+
 /// The bodies have parted; the bridge may still hold them.
 void open(gf::ContactState& state, GrainEffectPhys& phys) {
     phys.part();
@@ -58,37 +62,37 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
     auto next_apart = apart.begin();
     for (size_t i = begin; i < end; ++i) {
         gf::ContactState& state = contacts.states[i];
-        auto& phys = static_cast<GrainEffectPhys&>(*contacts.owners[i].phys);
-        LiquidBridge& bridge = *phys.bridge;
+        gf::Bridge& bridge = contacts.bridges[i];
         const bool touching = next_apart == apart.end() || *next_apart != i;
         if (!touching) {
             ++next_apart;
-            if (bridge.separation <= 0 || state.shear_stiffness > 0) {
-                open(state, phys);
-                if (!contacts.dashpots.empty())
+            if (bridge.memory.separation <= 0 || state.shear_stiffness > 0) {
+                open(state, effects_of(contacts.owners[i]));
+                if (contacts.books)
                     contacts.dashpots[i] = gf::DashpotMemory();
             }
         }
         const gf::ContactBlock<Real> pair(loop.bodies, contacts.states.data(), i, i + 1);
         const FlatTouch at =
             contacts.on_obstacles() ? pair.touch_of_obstacles(contacts.partner) : pair.touch_of_spheres();
-        gb::BridgeMemory memory = bridge.memory();
         Energy book;
         const gb::BridgeState held = gb::LiquidBridge<Form, Film, Energy>::step(
-            -at.touch.overlap, pair.normal_velocity(at, contacts.partner), loop.time_step,
-            bridge.parameters(), memory, book);
-        bridge.remember<Film, Energy>(memory);
+            -at.touch.overlap, pair.normal_velocity(at, contacts.partner), loop.time_step, bridge.parameters,
+            bridge.memory, book);
         if constexpr (Energy::active) {
             loop.book.viscous += book.viscous;
             loop.book.bridge += book.rupture;
         }
         state.normal = at.touch.normal;
         if (held == gb::BridgeState::holding)
-            apply(loop, contacts.on_obstacles(), state, at, bridge.normal_force<Film>() * at.touch.normal,
-                  Vector3r::Zero());
+            apply(loop, contacts.on_obstacles(), state, at,
+                  gb::normal_force<Film>(bridge.memory) * at.touch.normal, Vector3r::Zero());
         else if (held == gb::BridgeState::ended)
             loop.opened.push_back(i);
-        if ((loop.publish || is_exposed(contacts.partner)) && !touching) {
+        if (!(loop.publish || is_exposed(contacts.partner)))
+            continue;
+        effects_of(contacts.owners[i]).bridge->remember(bridge.memory);
+        if (!touching) {
             gl::ContactGeometry geometry;
             gl::put_motion<Real>(geometry, at.touch, pair.velocity(), pair.spin1(), pair.spin2(),
                                  loop.time_step);

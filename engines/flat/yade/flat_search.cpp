@@ -27,13 +27,15 @@ void reorder(Values& values, const vector<int>& order) {
 
 } // namespace
 
-FlatContacts& FlatGrains::Domain::segment(int contact_class, gf::Partner partner) {
+FlatContacts& FlatGrains::Domain::segment(int contact_class, gf::Partner partner, bool books) {
     for (FlatContacts& known : segments)
         if (known.contact_class == contact_class && known.partner == partner)
             return known;
     segments.emplace_back();
     segments.back().contact_class = contact_class;
     segments.back().partner = partner;
+    segments.back().wet = ContactClass(contact_class).bridge() != BridgeKind::none;
+    segments.back().books = books;
     return segments.back();
 }
 
@@ -138,12 +140,10 @@ void FlatGrains::take_contacts(Domain& domain, vector<FlatContacts>& former,
     });
     for (const Found& at : found) {
         FlatContacts& from = former[at.segment];
-        gf::ContactState state = from.states[at.index];
-        state.first = stands(state.first);
-        state.second = stands(state.second);
-        domain.segment(from.contact_class, from.partner)
-            .add(state, from.constants[at.index], std::move(from.owners[at.index]),
-                 booking_ ? &from.dashpots[at.index] : nullptr);
+        gf::Contact<ContactOwner> contact = from.extract(at.index);
+        contact.state.first = stands(contact.state.first);
+        contact.state.second = stands(contact.state.second);
+        domain.segment(from.contact_class, from.partner, booking_).add(std::move(contact));
         const int higher = std::max(at.owner, at.other);
         if (!bodies_.is_obstacle(higher))
             domain.loaded_end = std::max(domain.loaded_end, higher + 1);

@@ -222,13 +222,14 @@ FlatGrains::Imported FlatGrains::imported(const shared_ptr<Interaction>& contact
     else
         result.constants.curve = &phys.effects()->curve();
     result.dashpot = recall_dashpots(result.owner);
+    if (const LiquidBridge* bridge = bridge_of(phys))
+        result.bridge = {bridge->parameters(), bridge->memory()};
     return result;
 }
 
 FlatContacts& FlatGrains::add_contact(Domain& domain, Imported contact) const {
-    FlatContacts& contacts = domain.segment(contact.contact_class, contact.partner);
-    contacts.add(contact.state, contact.constants, std::move(contact.owner),
-                 booking_ ? &contact.dashpot : nullptr);
+    FlatContacts& contacts = domain.segment(contact.contact_class, contact.partner, booking_);
+    contacts.add(std::move(contact));
     return contacts;
 }
 
