@@ -7,6 +7,7 @@
 #include <laws/bridge/liquid_bridge.hpp>
 #include <laws/contact.hpp>
 #include <laws/friction/any.hpp>
+#include <laws/partial_slip.hpp>
 
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ struct Contact {
     Owner owner;
     DashpotMemory dashpot;
     Bridge bridge;
+    laws::SlipHistory slip;
 };
 
 // Contacts of one class of spheres with one kind of partner.
@@ -59,12 +61,14 @@ struct Segment {
     int contact_class = 0;
     Partner partner = Partner::sphere;
     bool wet = false;   // do they have bridges?
-    bool books = false; // and are energies booked?
+    bool books = false; // are energies booked?
+    bool slips = false; // does the law remember partial slip?
     std::vector<ContactState> states;
     std::vector<ContactConstants> constants;
     std::vector<Owner> owners;
     std::vector<DashpotMemory> dashpots; // empty where nothing is booked
     std::vector<Bridge> bridges;         // empty where contacts are dry
+    std::vector<laws::SlipHistory> slip; // empty where the law has none
 
     bool on_obstacles() const { return partner != Partner::sphere; }
     std::size_t size() const { return states.size(); }
@@ -77,12 +81,18 @@ struct Segment {
             dashpots.push_back(contact.dashpot);
         if (wet)
             bridges.push_back(contact.bridge);
+        if (slips)
+            slip.push_back(contact.slip);
     }
 
     // The contact is left without its owner.
     Contact<Owner> extract(std::size_t i) {
-        return {states[i], constants[i], std::move(owners[i]), books ? dashpots[i] : DashpotMemory(),
-                wet ? bridges[i] : Bridge()};
+        return {states[i],
+                constants[i],
+                std::move(owners[i]),
+                books ? dashpots[i] : DashpotMemory(),
+                wet ? bridges[i] : Bridge(),
+                slips ? slip[i] : laws::SlipHistory()};
     }
 
     // The last contact takes the place of the one removed.
@@ -94,6 +104,8 @@ struct Segment {
             take_last(dashpots, i);
         if (wet)
             take_last(bridges, i);
+        if (slips)
+            take_last(slip, i);
     }
 
 private:

@@ -369,6 +369,29 @@ def test_a_law_changed_under_way_takes_over_the_forces_alike_on_both_paths():
     assert_equal((results[0], results[1]), MANY_STEPS)
 
 
+@pytest.mark.parametrize("moisture", (0.0, 0.01))
+def test_a_law_changed_while_nobody_looks_takes_over_the_forces_too(moisture):
+    """By an engine that is said to be blind: slip is remembered from step 100 on, and no more from step 200 on."""
+
+    def build_changing(flat: bool) -> None:
+        build(flat, gravimetricMoisture=moisture)
+        O.engines = [
+            *O.engines,
+            w.PyRunner(
+                command="contact_law.tangentialLaw = 'mindlin-deresiewicz' if O.iter < 150 else 'incremental'",
+                iterPeriod=100,
+                nDo=3,
+                initRun=False,
+                label="changer",
+            ),
+        ]
+        if flat:
+            O.engines[2].blindEngines = ["changer"]
+
+    for steps in (150, 300):
+        assert_equal(on_both_paths(build_changing, steps), MANY_STEPS)
+
+
 def test_what_cannot_run_flat_runs_on_the_general_path_and_says_why():
     def many_clumps() -> None:
         build(True)

@@ -56,8 +56,6 @@ public:
         shared_ptr<State> first_state = boost::make_shared<State>(),
                           second_state = boost::make_shared<State>();
         std::exception_ptr failure; // of this thread in this step
-
-        FlatContacts& segment(int contact_class, grainfall::flat::Partner partner, bool books);
     };
 
     /// Margins of the search: each sphere gets `skin` [m] and what it travels in `horizon` [s].
@@ -168,6 +166,7 @@ private:
     long face_pairs_version_ = -1;
     bool moved_ = true;
     bool booking_ = false;
+    bool slipping_ = false; // does the law remember partial slip?
     bool has_room_ = false; // has the force container places for obstacles and clumps?
     bool forces_published_ = false;
     bool contacts_published_ = false; // in the last step
@@ -180,6 +179,7 @@ private:
     void find_functors();
     void take_over_contacts(Scene& scene, vector<Imported>& contacts);
     Imported imported(const shared_ptr<Interaction>& contact) const;
+    FlatContacts& segment(Domain& domain, int contact_class, grainfall::flat::Partner partner) const;
     FlatContacts& add_contact(Domain& domain, Imported contact) const;
     void note_plane_radius(int first, const Interaction& contact);
     grainfall::flat::DashpotMemory recall_dashpots(const ContactOwner& owner) const;
@@ -209,6 +209,7 @@ private:
     void list_general(const grainfall::flat::CellTable& cells);
 
     void start_booking(bool booking);
+    void start_remembering_slip(bool slipping);
     void run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,
              size_t end) const;
     void run_domain(Domain& domain, const Step& step) const;

@@ -40,10 +40,10 @@ public:
 
     // clang-format off
     YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GrainInteractionLoop, InteractionLoop,
-        "Drop-in for :yref:`InteractionLoop`, with the same three lists of functors; together with :yref:`GrainIntegrator` it runs contacts "
-        "and motion of spheres and walls of :yref:`GrainMat` in packed arrays (the flat path), with the same kernels. It finds neighbours "
-        "itself: the collider in O.engines lends its bounding functors and rests (dead = True). Pairs of other shapes are computed by their own functors in "
-        "the same step. State, forces and interactions are written whenever another engine or Python is about to look; engines "
+        "Drop-in for :yref:`InteractionLoop`, with the same three lists of functors; together with :yref:`GrainIntegrator` it runs the motion "
+        "of spheres of :yref:`GrainMat` and their contacts with each other, with walls, boxes and solids of revolution in packed arrays (the flat path), with the "
+        "same kernels. It finds neighbours itself: the collider in O.engines lends its bounding functors and rests (dead = True). Other pairs are computed by "
+        "their own functors in the same step. State, forces and interactions are written whenever another engine or Python is about to look; engines "
         "that look at grains in every step make it slow. What cannot run flat (a periodic cell, another law, hundreds of clumps) runs as in "
         "InteractionLoop; :yref:`path<GrainInteractionLoop.path>` says why.",
         ((bool, flat, true, , "use the flat path where the scene allows it? False: as InteractionLoop."))

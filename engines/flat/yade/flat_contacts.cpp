@@ -20,6 +20,8 @@ void FlatGrains::contacts(Scene& scene, const FlatTables::Pair& tables, bool pub
     ++census.steps;
     if (scene.trackEnergy != booking_)
         start_booking(scene.trackEnergy);
+    if (tables.slips != slipping_)
+        start_remembering_slip(tables.slips);
     read_obstacles();
     const Step step{booking_ ? tables.booking : tables.plain, scene.dt, scene.iter, publish};
     const int threads = static_cast<int>(domains_.size());
@@ -67,6 +69,16 @@ void FlatGrains::start_booking(bool booking) {
             segment.dashpots.assign(booking ? segment.size() : 0, gf::DashpotMemory());
             for (size_t i = 0; booking && contacts_published_ && i < segment.size(); ++i)
                 segment.dashpots[i] = recall_dashpots(segment.owners[i]);
+        }
+}
+
+/// The law was changed in the middle of a run. Histories begin with the forces that the contacts have.
+void FlatGrains::start_remembering_slip(bool slipping) {
+    slipping_ = slipping;
+    for (Domain& domain : domains_)
+        for (FlatContacts& segment : domain.segments) {
+            segment.slips = slipping;
+            segment.slip.assign(slipping ? segment.size() : 0, grainfall::laws::SlipHistory());
         }
 }
 

@@ -38,6 +38,12 @@ void publish_force(const gf::ContactState& state, const ContactOwner& owner, con
     }
 }
 
+void publish_slip(ContactOwner& owner, const gl::SlipHistory& history) {
+    GrainEffectPhys& phys = GrainEffectPhys::of(*owner.contact);
+    owner.phys = &phys;
+    phys.keep_slip(history);
+}
+
 namespace {
 
 namespace gb = grainfall::laws::bridge;
@@ -70,6 +76,8 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
                 open(state, effects_of(contacts.owners[i]));
                 if (contacts.books)
                     contacts.dashpots[i] = gf::DashpotMemory();
+                if (contacts.slips)
+                    contacts.slip[i] = gl::SlipHistory();
             }
         }
         const gf::ContactBlock<Real> pair(loop.bodies, contacts.states.data(), i, i + 1);

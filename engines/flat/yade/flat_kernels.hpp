@@ -53,6 +53,7 @@ using FlatTable = std::array<FlatKernel, ContactClass::dry_count>;
 struct FlatTables {
     struct Pair {
         FlatTable plain, booking;
+        bool slips; // do they remember partial slip?
     };
     Pair hertz, report;
 };
@@ -99,20 +100,20 @@ void publish_geometry(const FlatLoop& loop, const gf::ContactState& state, const
                       const FlatTouch& at, const gl::ContactGeometry& geometry);
 void publish_force(const gf::ContactState& state, const ContactOwner& owner, const gl::ContactForce& force,
                    bool has_shear);
+void publish_slip(ContactOwner& owner, const gl::SlipHistory& history);
 
-/// The slip history stays with YADE's object.
+/// Of the contact at `i`; the other laws remember no slip.
 template <class Scalar>
-inline void recall_history(const ContactOwner&, gl::ContactMemoryOf<Scalar>&) {}
-inline void recall_history(const ContactOwner& owner, gl::PartialSlipMemory& memory) {
-    if (const PartialSlip* slip = slip_of(*owner.phys))
-        slip->recall(memory.history);
+inline void recall_slip(const FlatContacts&, size_t, gl::ContactMemoryOf<Scalar>&) {}
+inline void recall_slip(const FlatContacts& contacts, size_t i, gl::PartialSlipMemory& memory) {
+    memory.history = contacts.slip[i];
 }
 template <class Scalar>
-inline void keep_history(const ContactOwner&, const gl::ContactMemoryOf<Scalar>&) {}
-inline void keep_history(ContactOwner& owner, const gl::PartialSlipMemory& memory) {
-    GrainEffectPhys& phys = GrainEffectPhys::of(*owner.contact);
-    owner.phys = &phys;
-    phys.keep_slip(memory.history);
+inline void keep_slip(FlatContacts&, size_t, const gl::ContactMemoryOf<Scalar>&, bool) {}
+inline void keep_slip(FlatContacts& contacts, size_t i, const gl::PartialSlipMemory& memory, bool publish) {
+    contacts.slip[i] = memory.history;
+    if (publish)
+        publish_slip(contacts.owners[i], memory.history);
 }
 
 /// What the law has made of a block of contacts.
@@ -182,7 +183,7 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
             contacts.on_obstacles() ? block.touch_of_obstacles(contacts.partner) : block.touch_of_spheres();
         typename ContactLaw::template MemoryOf<Scalar> memory;
         block.recall(memory);
-        recall_history(contacts.owners[i], memory);
+        recall_slip(contacts, i, memory);
         const auto idle = at.touch.overlap < 0 || block.empty();
         if (gl::any(idle)) {
             const bool keeps_energy = Energy::active && Tangential::active;
@@ -219,7 +220,7 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
             block.keep(book, idle, contacts.dashpots);
         }
         if constexpr (Tangential::active)
-            keep_history(contacts.owners[i], memory);
+            keep_slip(contacts, i, memory, loop.publish || is_exposed(contacts.partner));
         if (gl::any(idle) || loop.publish || contacts.on_obstacles())
             finish_each<Scalar>(loop, contacts, block, {idle, at, geometry, force, memory},
                                 Tangential::active);
@@ -260,12 +261,16 @@ FlatTable make_table() {
     return table;
 }
 
+template <class Normal, class Tangential>
+FlatTables::Pair both() {
+    return {make_table<Normal, Tangential, gl::NoEnergy>(),
+            make_table<Normal, Tangential, gl::DissipationBook>(),
+            std::is_same_v<Tangential, gl::PartialSlipTangential>};
+}
+
 template <class Tangential>
 const FlatTables& make_tables() {
-    static const FlatTables tables{{make_table<gl::Hertz, Tangential, gl::NoEnergy>(),
-                                    make_table<gl::Hertz, Tangential, gl::DissipationBook>()},
-                                   {make_table<gl::ReportNormal, Tangential, gl::NoEnergy>(),
-                                    make_table<gl::ReportNormal, Tangential, gl::DissipationBook>()}};
+    static const FlatTables tables{both<gl::Hertz, Tangential>(), both<gl::ReportNormal, Tangential>()};
     return tables;
 }
 

@@ -27,18 +27,6 @@ void reorder(Values& values, const vector<int>& order) {
 
 } // namespace
 
-FlatContacts& FlatGrains::Domain::segment(int contact_class, gf::Partner partner, bool books) {
-    for (FlatContacts& known : segments)
-        if (known.contact_class == contact_class && known.partner == partner)
-            return known;
-    segments.emplace_back();
-    segments.back().contact_class = contact_class;
-    segments.back().partner = partner;
-    segments.back().wet = ContactClass(contact_class).bridge() != BridgeKind::none;
-    segments.back().books = books;
-    return segments.back();
-}
-
 void FlatGrains::search(Reach reach) {
     ++census.searches;
     read_obstacles();
@@ -143,7 +131,7 @@ void FlatGrains::take_contacts(Domain& domain, vector<FlatContacts>& former,
         gf::Contact<ContactOwner> contact = from.extract(at.index);
         contact.state.first = stands(contact.state.first);
         contact.state.second = stands(contact.state.second);
-        domain.segment(from.contact_class, from.partner, booking_).add(std::move(contact));
+        segment(domain, from.contact_class, from.partner).add(std::move(contact));
         const int higher = std::max(at.owner, at.other);
         if (!bodies_.is_obstacle(higher))
             domain.loaded_end = std::max(domain.loaded_end, higher + 1);
@@ -208,8 +196,9 @@ void FlatGrains::list_near(Domain& domain, const gf::CellTable& cells) const {
 template <class Visit>
 void FlatGrains::visit_spheres_in(const Roamer& roamer, const gf::CellTable& cells,
                                   const Visit& visit) const {
-    if (bodies_.spheres() == 0)
-        return; // no cells either
+    const bool has_room = (roamer.room.low.array() <= roamer.room.high.array()).all();
+    if (bodies_.spheres() == 0 || !has_room)
+        return; // no cells, or no functor that makes its bound
     const auto consider = [&](int i) {
         const auto at = static_cast<size_t>(i);
         const Vector3r reach = Vector3r::Constant(bodies_.places[at].radius + anchors_[at].margin);

@@ -60,6 +60,7 @@ std::string FlatGrains::obstacle(const Scene& scene) const {
 void FlatGrains::take_over(Scene& scene, int threads) {
     ++census.takeovers;
     booking_ = scene.trackEnergy;
+    slipping_ = functors.grain_law->remembers_slip();
     domains_.clear();
     domains_.resize(static_cast<size_t>(threads));
     take_over_bodies(scene);
@@ -224,11 +225,27 @@ FlatGrains::Imported FlatGrains::imported(const shared_ptr<Interaction>& contact
     result.dashpot = recall_dashpots(result.owner);
     if (const LiquidBridge* bridge = bridge_of(phys))
         result.bridge = {bridge->parameters(), bridge->memory()};
+    if (const PartialSlip* slip = slip_of(phys))
+        slip->recall(result.slip);
     return result;
 }
 
+FlatContacts& FlatGrains::segment(Domain& domain, int contact_class, gf::Partner partner) const {
+    for (FlatContacts& known : domain.segments)
+        if (known.contact_class == contact_class && known.partner == partner)
+            return known;
+    FlatContacts fresh;
+    fresh.contact_class = contact_class;
+    fresh.partner = partner;
+    fresh.wet = ContactClass(contact_class).bridge() != BridgeKind::none;
+    fresh.books = booking_;
+    fresh.slips = slipping_;
+    domain.segments.push_back(std::move(fresh));
+    return domain.segments.back();
+}
+
 FlatContacts& FlatGrains::add_contact(Domain& domain, Imported contact) const {
-    FlatContacts& contacts = domain.segment(contact.contact_class, contact.partner, booking_);
+    FlatContacts& contacts = segment(domain, contact.contact_class, contact.partner);
     contacts.add(std::move(contact));
     return contacts;
 }
