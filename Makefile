@@ -36,7 +36,7 @@ bench: build
 	PYTHONPATH=$(abspath $(BUILD))/python yade -j1 -n -x benchmarks/law_cost.py
 	/usr/bin/python3 benchmarks/instruction_count.py $(BUILD)
 	/usr/bin/python3 benchmarks/effect_cost/measure.py $(BUILD)
-	PYTHONPATH=$(abspath $(BUILD))/python:benchmarks yade -j1 -n -x benchmarks/flat_effects.py --page docs/flat_path.md
+	PYTHONPATH=$(abspath $(BUILD))/python:benchmarks yade -j1 -n -x benchmarks/flat_effects.py $(BUILD) --page docs/flat_path.md
 	PYTHONPATH=benchmarks /usr/bin/python3 -m speed.run $(BUILD)
 
 # The speed of a step in a minute or two: results/speed/.

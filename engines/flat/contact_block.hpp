@@ -299,13 +299,14 @@ struct BlockFriction<laws::friction::Constant, Scalar> {
 
 template <class Curve, class Scalar>
 [[gnu::always_inline]] inline BlockFriction<Curve, Scalar>
-friction_of(const ContactBlock<Scalar>& block, const std::vector<ContactConstants>& constants) {
+friction_of(const ContactBlock<Scalar>& block, const std::vector<ContactConstants>& constants,
+            const std::vector<laws::friction::Any>& curves) {
     BlockFriction<Curve, Scalar> result;
     if constexpr (std::is_same_v<Curve, laws::friction::Constant>) {
-        result.mu = laws::packed<Scalar>([&](int lane) { return constants[block[lane]].coefficient; });
+        result.mu = laws::packed<Scalar>([&](int lane) { return constants[block[lane]].friction; });
     } else {
         for (int lane = 0; lane < block.width; ++lane) {
-            const laws::friction::Any& any = *constants[block[lane]].curve;
+            const laws::friction::Any& any = curves[block[lane]];
             if constexpr (std::is_same_v<Curve, laws::friction::Any>)
                 result.curves[lane] = &any;
             else

@@ -26,10 +26,7 @@ static_assert(sizeof(ContactState) == 64);
 // What was fixed when the contact was made.
 struct ContactConstants {
     laws::ContactParameters parameters;
-    union {
-        double coefficient;               // friction, where it is constant
-        const laws::friction::Any* curve; // elsewhere; the owner keeps it alive
-    };
+    double friction; // its coefficient, where that is constant
 };
 
 // Forces of the dashpots in the last step; kept only where energies are booked.
@@ -50,6 +47,7 @@ struct Contact {
     ContactState state;
     ContactConstants constants;
     Owner owner;
+    laws::friction::Any curve;
     DashpotMemory dashpot;
     Bridge bridge;
     laws::SlipHistory slip;
@@ -60,15 +58,17 @@ template <class Owner>
 struct Segment {
     int contact_class = 0;
     Partner partner = Partner::sphere;
-    bool wet = false;   // do they have bridges?
-    bool books = false; // are energies booked?
-    bool slips = false; // does the law remember partial slip?
+    bool curved = false; // do they have friction curves?
+    bool wet = false;    // do they have bridges?
+    bool books = false;  // are energies booked?
+    bool slips = false;  // does the law remember partial slip?
     std::vector<ContactState> states;
     std::vector<ContactConstants> constants;
     std::vector<Owner> owners;
-    std::vector<DashpotMemory> dashpots; // empty where nothing is booked
-    std::vector<Bridge> bridges;         // empty where contacts are dry
-    std::vector<laws::SlipHistory> slip; // empty where the law has none
+    std::vector<laws::friction::Any> curves; // empty where friction is constant
+    std::vector<DashpotMemory> dashpots;     // empty where nothing is booked
+    std::vector<Bridge> bridges;             // empty where contacts are dry
+    std::vector<laws::SlipHistory> slip;     // empty where the law has none
 
     bool on_obstacles() const { return partner != Partner::sphere; }
     std::size_t size() const { return states.size(); }
@@ -77,6 +77,8 @@ struct Segment {
         states.push_back(contact.state);
         constants.push_back(contact.constants);
         owners.push_back(std::move(contact.owner));
+        if (curved)
+            curves.push_back(std::move(contact.curve));
         if (books)
             dashpots.push_back(contact.dashpot);
         if (wet)
@@ -85,11 +87,12 @@ struct Segment {
             slip.push_back(contact.slip);
     }
 
-    // The contact is left without its owner.
+    // The contact is left without its owner and its curve.
     Contact<Owner> extract(std::size_t i) {
         return {states[i],
                 constants[i],
                 std::move(owners[i]),
+                curved ? std::move(curves[i]) : laws::friction::Any(),
                 books ? dashpots[i] : DashpotMemory(),
                 wet ? bridges[i] : Bridge(),
                 slips ? slip[i] : laws::SlipHistory()};
@@ -100,6 +103,8 @@ struct Segment {
         take_last(states, i);
         take_last(constants, i);
         take_last(owners, i);
+        if (curved)
+            take_last(curves, i);
         if (books)
             take_last(dashpots, i);
         if (wet)

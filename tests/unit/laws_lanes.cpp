@@ -44,7 +44,7 @@ struct Row {
             states.push_back(state);
             flat::ContactConstants constant{};
             constant.parameters = {3e8, 2.5e8, 30, 25};
-            constant.coefficient = 0.1 + 0.1 * (i % 5);
+            constant.friction = 0.1 + 0.1 * (i % 5);
             constants.push_back(constant);
         }
     }
@@ -60,7 +60,7 @@ ContactForceOf<Scalar> step(const Row& row, const flat::ContactBlock<Scalar>& bl
     put_motion<Scalar>(geometry, at.touch, block.velocity(), block.spin1(), block.spin2(), time_step);
     put_rotation<Scalar>(geometry, block.normal_before(), block.spin1(), block.spin2());
     block.recall(memory);
-    const auto friction = flat::friction_of<friction::Constant>(block, row.constants);
+    const auto friction = flat::friction_of<friction::Constant>(block, row.constants, {});
     if constexpr (width_of<Scalar> == 1)
         return Law::step(geometry, block.parameters(row.constants), friction::Constant{friction.mu}, memory,
                          book);

@@ -205,9 +205,9 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
             const Vectors applied = memory.shear_force + book.shear_viscous_force;
             shear_before = gl::rotated_with_contact<Scalar>(applied, geometry);
         }
-        const gl::ContactForceOf<Scalar> force =
-            ContactLaw::step(geometry, block.parameters(contacts.constants),
-                             gf::friction_of<Friction>(block, contacts.constants), memory, book);
+        const gl::ContactForceOf<Scalar> force = ContactLaw::step(
+            geometry, block.parameters(contacts.constants),
+            gf::friction_of<Friction>(block, contacts.constants, contacts.curves), memory, book);
         if constexpr (Energy::active) {
             Scalar kinematics = 0;
             if constexpr (Tangential::active) {

@@ -219,9 +219,9 @@ FlatGrains::Imported FlatGrains::imported(const shared_ptr<Interaction>& contact
     result.constants.parameters = {phys.normalCoefficient, phys.shearCoefficient, phys.normalDamping,
                                    phys.shearDamping};
     if (ContactClass(phys.contactClass).friction() == FrictionForm::constant)
-        result.constants.coefficient = phys.tangensOfFrictionAngle;
+        result.constants.friction = phys.tangensOfFrictionAngle;
     else
-        result.constants.curve = &phys.effects()->curve();
+        result.curve = phys.effects()->curve();
     result.dashpot = recall_dashpots(result.owner);
     if (const LiquidBridge* bridge = bridge_of(phys))
         result.bridge = {bridge->parameters(), bridge->memory()};
@@ -237,6 +237,7 @@ FlatContacts& FlatGrains::segment(Domain& domain, int contact_class, gf::Partner
     FlatContacts fresh;
     fresh.contact_class = contact_class;
     fresh.partner = partner;
+    fresh.curved = ContactClass(contact_class).friction() != FrictionForm::constant;
     fresh.wet = ContactClass(contact_class).bridge() != BridgeKind::none;
     fresh.books = booking_;
     fresh.slips = slipping_;
