@@ -87,15 +87,19 @@ struct Segment {
             slip.push_back(contact.slip);
     }
 
-    // The contact is left without its owner and its curve.
-    Contact<Owner> extract(std::size_t i) {
-        return {states[i],
-                constants[i],
-                std::move(owners[i]),
-                curved ? std::move(curves[i]) : laws::friction::Any(),
-                books ? dashpots[i] : DashpotMemory(),
-                wet ? bridges[i] : Bridge(),
-                slips ? slip[i] : laws::SlipHistory()};
+    // From a segment of the same kind, which is left without the contact's owner and curve.
+    void take(Segment& from, std::size_t i) {
+        states.push_back(from.states[i]);
+        constants.push_back(from.constants[i]);
+        owners.push_back(std::move(from.owners[i]));
+        if (curved)
+            curves.push_back(std::move(from.curves[i]));
+        if (books)
+            dashpots.push_back(from.dashpots[i]);
+        if (wet)
+            bridges.push_back(from.bridges[i]);
+        if (slips)
+            slip.push_back(from.slip[i]);
     }
 
     // The last contact takes the place of the one removed.

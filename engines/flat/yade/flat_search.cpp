@@ -128,10 +128,11 @@ void FlatGrains::take_contacts(Domain& domain, vector<FlatContacts>& former,
     });
     for (const Found& at : found) {
         FlatContacts& from = former[at.segment];
-        gf::Contact<ContactOwner> contact = from.extract(at.index);
-        contact.state.first = stands(contact.state.first);
-        contact.state.second = stands(contact.state.second);
-        segment(domain, from.contact_class, from.partner).add(std::move(contact));
+        FlatContacts& contacts = segment(domain, from.contact_class, from.partner);
+        contacts.take(from, at.index);
+        gf::ContactState& state = contacts.states.back();
+        state.first = stands(state.first);
+        state.second = stands(state.second);
         const int higher = std::max(at.owner, at.other);
         if (!bodies_.is_obstacle(higher))
             domain.loaded_end = std::max(domain.loaded_end, higher + 1);
