@@ -189,3 +189,26 @@ def differences(first: dict[str, Any], second: dict[str, Any]) -> dict[str, floa
         name: float(np.abs(first[name] - second[name]).max()) / max(scale, 1e-300)
         for name, scale in size.items()
     }
+
+
+def assert_equal(
+    results: tuple[dict[str, Any], dict[str, Any]], tolerance: float, contacts: int = 20
+) -> None:
+    """Two states with the same contacts, more than so many, and quantities that differ by at most `tolerance`."""
+    first, second = results
+    assert len(second["ids"]) > contacts
+    assert np.array_equal(first["ids"], second["ids"])
+    assert {k: v for k, v in differences(first, second).items() if not v <= tolerance} == {}
+
+
+def assert_saving_changes_no_bit(file: str, steps: int = 200) -> None:
+    """The scene goes on for `steps`, is saved, goes on as long; the saved one, loaded, ends in the same state."""
+    O.run(steps, True)
+    O.save(file)
+    O.run(steps, True)
+    kept_on = state()
+    O.load(file)
+    O.run(steps, True)
+    loop = next(e for e in O.engines if isinstance(e, GrainInteractionLoop))
+    assert loop.path == "flat"
+    assert {k: v for k, v in differences(state(), kept_on).items() if v != 0} == {}

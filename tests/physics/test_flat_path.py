@@ -15,7 +15,7 @@ import flat_scenes as scenes
 import numpy as np
 import pytest
 import yade.wrapper as w
-from flat_scenes import add_clump, differences, engines, on_both_paths, pack, sand
+from flat_scenes import add_clump, assert_equal, differences, engines, on_both_paths, pack, sand
 from grainfall.projectiles import projectile
 from yade import O, utils
 
@@ -33,13 +33,6 @@ CURVES = {
 def build(flat: bool, law: dict[str, Any] | None = None, **material: Any) -> None:
     pack(sand(**material))
     engines(flat, law=law)
-
-
-def assert_equal(results: tuple[dict[str, Any], dict[str, Any]], tolerance: float) -> None:
-    flat, general = results
-    assert len(general["ids"]) > 20
-    assert np.array_equal(flat["ids"], general["ids"])
-    assert {k: v for k, v in differences(flat, general).items() if not v <= tolerance} == {}
 
 
 @pytest.mark.parametrize("tangential", LAWS)
@@ -267,15 +260,7 @@ def test_saving_in_the_middle_of_an_impact_continues_to_the_last_bit(tmp_path: P
     file = str(tmp_path / "middle.yade.gz")
     O.reset()
     build(True, gravimetricMoisture=0.01)
-    O.run(200, True)
-    O.save(file)
-    O.run(200, True)
-    kept_on = scenes.state()
-    O.load(file)
-    O.run(200, True)
-    loaded = scenes.state()
-    assert O.engines[2].path == "flat"
-    assert {k: v for k, v in differences(loaded, kept_on).items() if v != 0} == {}
+    scenes.assert_saving_changes_no_bit(file)
 
 
 def test_switching_the_flat_path_off_and_on_in_a_run_changes_nothing():
