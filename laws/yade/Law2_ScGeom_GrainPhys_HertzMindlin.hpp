@@ -42,8 +42,6 @@ public:
         return (*kernels_[booking])[static_cast<std::size_t>(contact_class)];
     }
 
-    bool remembers_slip() const { return tangentialLaw == "mindlin-deresiewicz"; }
-
     /// Books energies [J] into O.energy; safe from all threads.
     void book(Real friction, Real viscous, Real rescaling, Real kinematics);
     /// Work that went into a bridge which has ruptured.

@@ -13,12 +13,19 @@ import flat_scenes as scenes
 import numpy as np
 import pytest
 import yade.wrapper as w
-from flat_scenes import RADIUS, box_engines, on_both_paths, pack, sand
+from flat_scenes import (
+    LAWS,
+    MANY_STEPS,
+    ONE_STEP,
+    RADIUS,
+    box_engines,
+    on_both_paths,
+    one_step_on_both_paths,
+    pack,
+    sand,
+)
 from grainfall.projectiles import projectile
 from yade import O, Quaternion, Vector3, utils
-
-ONE_STEP, MANY_STEPS = 1e-12, 1e-9
-LAWS = ("incremental", "mindlin-deresiewicz", "report", "secant", "none")
 
 
 def assert_equal(results: tuple[dict[str, Any], dict[str, Any]], tolerance: float) -> None:
@@ -60,17 +67,13 @@ def test_one_step_on_boxes_is_the_general_path_s_to_1e_12(tangential):
     pack(sand(), boxes=True)
     box_engines(False, law=law)
     O.run(300, True)
-    O.saveTmp("in boxes")
-    results = []
-    for flat in (True, False):
-        O.loadTmp("in boxes")
-        box_engines(flat, law=law)
-        O.run(1, True)
-        if flat:
-            assert all_are_flat()
-        results.append(scenes.state())
-    assert sum(contacts_of(4**3 + i, (results[0], results[1])) for i in range(5)) > 3
-    assert_equal((results[0], results[1]), ONE_STEP)
+    results = one_step_on_both_paths(lambda flat: box_engines(flat, law=law))
+    O.loadTmp("start")
+    box_engines(True, law=law)
+    O.run(1, True)
+    assert all_are_flat()
+    assert sum(contacts_of(4**3 + i, results) for i in range(5)) > 3
+    assert_equal(results, ONE_STEP)
 
 
 @pytest.mark.parametrize("tangential", LAWS)
@@ -273,15 +276,9 @@ def test_one_step_of_a_projectile_is_the_general_path_s_to_1e_12():
     O.bodies[shell].state.angVel = (3, 0, 100)
     scenes.projectile_engines(False)
     O.run(300, True)
-    O.saveTmp("drop")
-    results = []
-    for flat in (True, False):
-        O.loadTmp("drop")
-        scenes.projectile_engines(flat)
-        O.run(1, True)
-        results.append(scenes.state())
-    assert contacts_of(shell, (results[0], results[1])) > 0
-    assert_equal((results[0], results[1]), ONE_STEP)
+    results = one_step_on_both_paths(scenes.projectile_engines)
+    assert contacts_of(shell, results) > 0
+    assert_equal(results, ONE_STEP)
 
 
 def test_a_projectile_that_spins_about_its_axis_calls_for_no_more_searches():
@@ -323,3 +320,16 @@ def test_a_wall_that_the_collider_leaves_out_is_left_out_on_both_paths():
         box_engines(flat)
 
     assert_equal(on_both_paths(build, 300), MANY_STEPS)
+
+
+def test_a_wall_that_slides_in_its_own_plane_calls_for_no_more_searches():
+    """It stays where it is for the grains, however far it goes."""
+    searches = []
+    for speed in (0.0, 100.0):
+        O.reset()
+        pack(sand(friction=0))
+        O.bodies[-1].state.vel = (speed, 0, 0)
+        scenes.engines(True)
+        O.run(300, True)
+        searches.append(O.engines[2].statistics()["searches"])
+    assert searches[0] == searches[1]

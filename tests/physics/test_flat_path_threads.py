@@ -15,9 +15,8 @@ from typing import Any
 import flat_scenes as scenes
 import numpy as np
 import pytest
+from flat_scenes import MANY_STEPS, ONE_STEP
 from yade import O
-
-ONE_STEP, MANY_STEPS = 1e-12, 1e-9
 
 
 @pytest.fixture(scope="module")

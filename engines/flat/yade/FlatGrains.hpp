@@ -73,7 +73,8 @@ public:
     /// Why this scene cannot run flat; empty if it can.
     std::string obstacle(const Scene& scene) const;
 
-    void take_over(Scene& scene, int threads);
+    /// `slips`: does the law remember partial slip?
+    void take_over(Scene& scene, int threads, bool slips);
     /// Has anything moved further than the last search allowed for?
     bool must_search() { return moved_ || others_have_moved(); }
     void search(Reach reach);
@@ -210,7 +211,7 @@ private:
 
     void start_booking(bool booking);
     void start_remembering_slip(bool slipping);
-    void run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,
+    void run(Domain& domain, size_t segment, const Step& step, vector<size_t>& opened, size_t begin,
              size_t end) const;
     void run_domain(Domain& domain, const Step& step) const;
     void find_touching(Domain& domain) const;

@@ -49,7 +49,7 @@ void GrainInteractionLoop::action() {
         flat_step_ = can_run_flat();
         wanted_flat_ = flat;
         if (flat_step_)
-            grains_->take_over(*scene, threads());
+            grains_->take_over(*scene, threads(), tables().slips);
         body_count_ = scene->bodies->body.size();
     } else if (flat_step_ && changed_ == Changed::states) {
         grains_->take_over_states();

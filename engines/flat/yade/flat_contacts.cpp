@@ -82,21 +82,22 @@ void FlatGrains::start_remembering_slip(bool slipping) {
         }
 }
 
-void FlatGrains::run(Domain& domain, size_t segment, const FlatTable& table, FlatLoop& loop, size_t begin,
+void FlatGrains::run(Domain& domain, size_t segment, const Step& step, vector<size_t>& opened, size_t begin,
                      size_t end) const {
     FlatContacts& contacts = domain.segments[segment];
+    const bool publish = step.publish || is_exposed(contacts.partner);
+    FlatLoop loop{bodies_, domain.loads.data(), step.length, publish, domain.book, opened};
     if (!contacts.wet)
-        table[static_cast<size_t>(contacts.contact_class)](loop, contacts, begin, end);
+        step.table[static_cast<size_t>(contacts.contact_class)](loop, contacts, begin, end);
     else
-        run_wet_flat(table, booking_, loop, contacts, begin, end);
+        run_wet_flat(step.table, booking_, loop, contacts, begin, end);
 }
 
 void FlatGrains::run_domain(Domain& domain, const Step& step) const {
     domain.opened.resize(domain.segments.size());
     for (size_t s = 0; s < domain.segments.size(); ++s) {
         domain.opened[s].clear();
-        FlatLoop loop{bodies_, domain.loads.data(), step.length, step.publish, domain.book, domain.opened[s]};
-        run(domain, s, step.table, loop, 0, domain.segments[s].size());
+        run(domain, s, step, domain.opened[s], 0, domain.segments[s].size());
     }
 }
 
@@ -153,8 +154,7 @@ void FlatGrains::bear(Domain& domain, const Step& step, vector<gf::Pair>& near,
         const auto segment = static_cast<size_t>(&contacts - domain.segments.data());
         domain.opened.resize(domain.segments.size());
         vector<size_t> opened;
-        FlatLoop loop{bodies_, domain.loads.data(), step.length, step.publish, domain.book, opened};
-        run(domain, segment, step.table, loop, contacts.size() - 1, contacts.size());
+        run(domain, segment, step, opened, contacts.size() - 1, contacts.size());
     }
 }
 

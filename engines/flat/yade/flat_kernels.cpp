@@ -97,7 +97,7 @@ void run_wet(FlatLoop& loop, FlatContacts& contacts, FlatKernel dry, size_t begi
                   gb::normal_force<Film>(bridge.memory) * at.touch.normal, Vector3r::Zero());
         else if (held == gb::BridgeState::ended)
             loop.opened.push_back(i);
-        if (!(loop.publish || is_exposed(contacts.partner)))
+        if (!loop.publish)
             continue;
         effects_of(contacts.owners[i]).bridge->remember(bridge.memory);
         if (!touching) {

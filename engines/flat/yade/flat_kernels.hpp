@@ -40,7 +40,7 @@ struct FlatLoop {
     const grainfall::flat::Bodies& bodies;
     grainfall::flat::Load* loads; // of all bodies, for this thread
     Real time_step;
-    bool publish; // write YADE's objects too
+    bool publish; // write YADE's objects too?
     FlatBook& book;
     std::vector<size_t>& opened; // contacts whose bodies have parted, ascending
 };
@@ -153,7 +153,7 @@ template <class Scalar>
         state.shear_stiffness = gl::lane_of(outcome.memory.shear_stiffness, lane);
         apply(loop, contacts.on_obstacles(), state, at, force.normal * at.touch.normal + force.shear,
               at.touch.normal.cross(force.shear));
-        if (loop.publish || is_exposed(contacts.partner)) {
+        if (loop.publish) {
             const ContactOwner& owner = contacts.owners[block[lane]];
             publish_geometry(loop, state, owner, at, gf::lane_of(outcome.geometry, lane));
             publish_force(state, owner, force, has_shear);
@@ -220,7 +220,7 @@ inline void run(FlatLoop& loop, FlatContacts& contacts, size_t begin, size_t end
             block.keep(book, idle, contacts.dashpots);
         }
         if constexpr (Tangential::active)
-            keep_slip(contacts, i, memory, loop.publish || is_exposed(contacts.partner));
+            keep_slip(contacts, i, memory, loop.publish);
         if (gl::any(idle) || loop.publish || contacts.on_obstacles())
             finish_each<Scalar>(loop, contacts, block, {idle, at, geometry, force, memory},
                                 Tangential::active);

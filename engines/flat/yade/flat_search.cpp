@@ -271,9 +271,10 @@ bool FlatGrains::others_have_moved() {
     return false;
 }
 
-/// A bound does not tell how far the surface of a body that turns has gone.
+/// The bound of a box or a solid does not tell how far its surface has gone when it turns; that of a plane
+/// tells all.
 bool FlatGrains::has_gone_too_far(const Roamer& roamer) const {
-    if (roamer.obstacle < 0)
+    if (roamer.obstacle < 0 || bodies_.kind(roamer.obstacle) == gf::Partner::plane)
         return false;
     const State& state = *roamer.body->state;
     const Real turned = gf::turned_by(bodies_.obstacle(roamer.obstacle), roamer.orientation, state.ori);

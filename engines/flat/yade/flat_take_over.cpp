@@ -57,10 +57,10 @@ std::string FlatGrains::obstacle(const Scene& scene) const {
     return functors.obstacle();
 }
 
-void FlatGrains::take_over(Scene& scene, int threads) {
+void FlatGrains::take_over(Scene& scene, int threads, bool slips) {
     ++census.takeovers;
     booking_ = scene.trackEnergy;
-    slipping_ = functors.grain_law->remembers_slip();
+    slipping_ = slips;
     domains_.clear();
     domains_.resize(static_cast<size_t>(threads));
     take_over_bodies(scene);
@@ -83,15 +83,15 @@ void FlatGrains::take_over_bodies(Scene& scene) {
     others_.clear();
     const auto& all = scene.bodies->body;
     index_of_.assign(all.size(), -1);
-    vector<Body*> obstacles;
+    vector<std::pair<Body*, gf::Obstacle>> obstacles;
     same_masks_ = functors.avoid_self_interaction == 0;
     for (const auto& body : all) {
         if (!body || !body->shape)
             continue;
         if (!is_flat_sphere(*body)) {
             others_.push_back(body.get());
-            if (obstacle_of(*body))
-                obstacles.push_back(body.get());
+            if (const auto obstacle = obstacle_of(*body))
+                obstacles.emplace_back(body.get(), *obstacle);
             continue;
         }
         same_masks_ = same_masks_ && body->groupMask == 1;
@@ -104,14 +104,14 @@ void FlatGrains::take_over_bodies(Scene& scene) {
         bodies_.orientations.push_back(state.ori);
         bodies_.inertias.push_back({state.mass, state.inertia, state.blockedDOFs, state.isDamped});
     }
-    for (Body* body : obstacles) {
+    for (const auto& [body, obstacle] : obstacles) {
         same_masks_ = same_masks_ && body->groupMask == 1;
         index_of_[static_cast<size_t>(body->id)] = static_cast<int>(yade_.size());
         yade_.push_back(body);
         bodies_.ids.push_back(body->id);
         bodies_.places.push_back({body->state->pos, 1});
         bodies_.motions.push_back({body->state->vel, body->state->angVel});
-        bodies_.obstacles.push_back(*obstacle_of(*body));
+        bodies_.obstacles.push_back(obstacle);
     }
 }
 
